@@ -29,9 +29,23 @@ constexpr int kLookEveryMs = 50;
 
 double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
 
+/// The environment without what begins as one of `hidden`.
+std::vector<char*> shown_environment(const std::vector<std::string>& hidden) {
+    std::vector<char*> out;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        bool shown = true;
+        for (const std::string& name : hidden)
+            shown = shown && std::strncmp(*variable, name.c_str(), name.size()) != 0;
+        if (shown) out.push_back(*variable);
+    }
+    out.push_back(nullptr);
+    return out;
+}
+
 /// Starts the program in a process group of its own: Ctrl-C reaches us alone, and we decide.
-int start(const std::vector<std::string>& words, const InterruptHold& hold, const int (&pipe_)[2],
-          pid_t& child) {
+int start(const std::vector<std::string>& words, const InterruptHold& hold,
+          const std::vector<std::string>& hidden, const int (&pipe_)[2], pid_t& child) {
+    std::vector<char*> environment = shown_environment(hidden);
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -50,7 +64,8 @@ int start(const std::vector<std::string>& words, const InterruptHold& hold, cons
         error = posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
     if (!error) error = posix_spawnattr_setsigmask(&how, &hold.before());
     if (!error)
-        error = posix_spawn(&child, words[0].c_str(), &files, &how, arguments.data(), environ);
+        error = posix_spawn(&child, words[0].c_str(), &files, &how, arguments.data(),
+                            environment.data());
     posix_spawnattr_destroy(&how);
     posix_spawn_file_actions_destroy(&files);
     return error;
@@ -93,7 +108,8 @@ bool InterruptHold::pending() const {
     return false;
 }
 
-ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold) {
+ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold,
+                          const std::vector<std::string>& hidden) {
     ProcessResult result;
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) {
@@ -102,7 +118,7 @@ ProcessResult run_process(const std::vector<std::string>& words, const Interrupt
     }
     const double began = wall_seconds();
     pid_t child = -1;
-    result.system_error = start(words, hold, ends, child);
+    result.system_error = start(words, hold, hidden, ends, child);
     ::close(ends[1]);
     if (result.system_error == 0) {
         listen(ends[0], child, hold, result);

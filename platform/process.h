@@ -37,9 +37,11 @@ private:
     sigset_t before_, held_;
 };
 
-/// Runs `words[0]` with the words as its arguments to its end. Its standard input and output are
-/// empty. An interrupt that `hold` sees ends it at once.
-ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold);
+/// Runs `words[0]` with the words as its arguments to its end, in this environment but for
+/// variables whose names begin as one of `hidden`. Its standard input and output are empty. An
+/// interrupt that `hold` sees ends it at once.
+ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold,
+                          const std::vector<std::string>& hidden = {});
 
 /// The file of the program that runs now; `first_word` (argv[0]) where the system does not tell.
 std::string own_program(const char* first_word);

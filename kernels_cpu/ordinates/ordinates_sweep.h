@@ -110,15 +110,17 @@ PILEUS_FN void ordinate_sweep(const OrdinatesParams& k, const OrdinatesBuffers& 
     const bool wraps = k.periodic != 0;
     // Rows begin one node early where the grid ends, so that all four neighbours are there.
     const std::int64_t first = wraps ? 0 : 1;
-    for (std::int64_t i = 0; i < 2 * slice; ++i) b.slices[i] = k.enters[j];
+    const auto fill = [](float* to, std::int64_t count, float radiance) {
+        for (std::int64_t i = 0; i < count; ++i) to[i] = radiance;
+    };
+    fill(b.slices, 2 * slice, k.enters[j]);
+    // The lower face lies before the first of slices along z, and before the first row of others.
     const bool other_below = k.below[j] != k.enters[j];
-    // Of slices upwards the first one's neighbours are below, of others the first row's.
-    const std::int64_t below = s.axis == 2 ? slice : row;
-    for (std::int64_t i = 0; i < below && other_below; ++i)
-        b.slices[i] = b.slices[s.axis == 2 ? i : slice + i] = k.below[j];
+    for (int i = 0; i < 2 && other_below && s.axis != 2; ++i)
+        fill(b.slices + i * slice, row, k.below[j]);
+    if (other_below && s.axis == 2) fill(b.slices, slice, k.below[j]);
     for (std::int32_t turn = 0; turn < slices; ++turn) {
-        for (std::int64_t i = 0; i < slice && other_below && s.axis == 2 && turn == 1; ++i)
-            b.slices[i] = k.enters[j];
+        if (other_below && s.axis == 2 && turn == 1) fill(b.slices, slice, k.enters[j]);
         const float* before = b.slices + (turn & 1) * slice;
         float* out = b.slices + (1 - (turn & 1)) * slice;
         const std::int64_t plane = between * (s.up != 0 ? turn : slices - 1 - turn);

@@ -7,7 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "src/base/text_mark.h"
+#include "src/base/number_text.h"
+#include "src/base/printable.h"
 
 namespace pileus {
 namespace {
@@ -56,9 +57,8 @@ struct Words {
         const auto [stop, error] = std::from_chars(text.data(), last, value);
         if (error == std::errc() && stop == last && double(value) >= low && double(value) <= high)
             return Status::ok();
-        char range[64];
-        std::snprintf(range, sizeof range, "a number in [%g, %g]", low, high);
-        return fault(std::string(what) + ": \"" + printable_line(text) + "\"", range);
+        return fault(std::string(what) + ": \"" + printable_line(text) + "\"",
+                     "a number in [" + number_text(low) + ", " + number_text(high) + "]");
     }
 };
 

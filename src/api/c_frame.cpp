@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: light, pictures, and what a session tells.
 #include "src/api/c_types.h"
+#include "src/base/number_text.h"
 #include "src/flight/flight.h"
 #include "src/plan/report_json.h"
 #include "src/scene/toml/toml_tree.h"

@@ -5,6 +5,7 @@
 
 #include "include/pileus/pileus_flight.h"
 #include "src/api/c_types.h"
+#include "src/base/number_text.h"
 #include "src/base/single.h"
 #include "src/scene/number_keys.h"
 #include "src/scene/toml/toml_tree.h"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place that makes text fit for a message.
+// The one place that makes text fit for a message, and that knows how texts begin.
 // in: text that nobody vouches for -> out: valid UTF-8 without a control character.
 // Unicode 15, chapter 3.9 (well-formed UTF-8) and general category Cc; docs/scene.md, "Messages".
 #pragma once
 #include <string>
 #include <string_view>
+
+#include "src/base/span.h"
 
 namespace pileus {
 
@@ -26,6 +28,13 @@ inline std::string lower_case(std::string text) {
     for (char& c : text)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     return text;
+}
+
+/// A text without the mark that it may begin with. Every reader of texts passes through here.
+inline Span<const char> without_mark(Span<const char> text) {
+    const bool marked =
+        text.size >= 3 && text[0] == '\xef' && text[1] == '\xbb' && text[2] == '\xbf';
+    return marked ? text.part(3, text.size - 3) : text;
 }
 
 }  // namespace pileus

@@ -123,15 +123,25 @@ Status Clouds::place(const std::vector<CloudPlace>& places) {
         const bool same = cloud != nullptr && cloud->place.kind == p.kind &&
                           cloud->place.offset_m == p.offset_m &&
                           cloud->place.yaw_deg == p.yaw_deg && cloud->place.scale == p.scale;
-        if (same) continue;
-        cloud = std::make_unique<Cloud>();
-        cloud->place = p;
-        cloud->box = box_of(p, kinds_[p.kind].low_m, kinds_[p.kind].high_m);
-        cloud->group = SIZE_MAX;
+        if (!same) set_anew(p, cloud);
     }
     drop_groups();
     shaded_ = false;
     return Status::ok();
+}
+
+void Clouds::set_anew(const CloudPlace& place, std::unique_ptr<Cloud>& cloud) const {
+    cloud = std::make_unique<Cloud>();
+    cloud->place = place;
+    cloud->box = box_of(place, kinds_[place.kind].low_m, kinds_[place.kind].high_m);
+    cloud->group = SIZE_MAX;
+}
+
+void Clouds::restart() {
+    for (auto& cloud : clouds_) set_anew(CloudPlace(cloud->place), cloud);
+    groups_.clear();
+    given_ = light_ = CloudLight{};
+    lit_ = shaded_ = false;
 }
 
 /// Sessions of kinds and turns that no place has any more.
@@ -173,10 +183,10 @@ Status Clouds::check_memory(const CloudGroup& next, std::size_t kind) const {
 Status Clouds::set_detail(const CloudDetail& d) {
     PILEUS_TRY(check_numbers("detail.", d));
     if (d.near_scale != 1 && d.near_scale != 2 && d.near_scale != 4)
-        return Status::bad_input("detail.near_scale: " + std::to_string(double(d.near_scale)) +
+        return Status::bad_input("detail.near_scale: " + std::to_string(d.near_scale) +
                                  ", allowed: 1, 2, 4");
     if (d.frame_pixels < 1)
-        return Status::bad_input("detail.frame_pixels: " + std::to_string(double(d.frame_pixels)) +
+        return Status::bad_input("detail.frame_pixels: " + std::to_string(d.frame_pixels) +
                                  ", allowed: 1 and more");
     detail_ = d;
     return Status::ok();

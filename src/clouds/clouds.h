@@ -27,6 +27,8 @@ public:
     /// kBadInput: an unknown kind; a place or size out of range.
     Status place(const std::vector<CloudPlace>& places);
     Status set_detail(const CloudDetail& detail);
+    /// Forgets light and pictures: the next picture is what a new sky's first would be.
+    void restart();
     /// Draws all, into a host's memory.
     Status render(const FrameTarget& target);
     /// Draws all; `planes` stay until the next picture. With `depths` half_depth is as layers have
@@ -60,6 +62,7 @@ private:
     Status cast_shadows();
     Status group_of(const CloudPlace& place, std::size_t& group);
     Status check_memory(const CloudGroup& next, std::size_t kind) const;
+    void set_anew(const CloudPlace& place, std::unique_ptr<Cloud>& cloud) const;
     void drop_groups();
     void judge(const CloudView& view, Cloud& cloud, Seen& seen) const;
     void look_for(const CloudView& view);

@@ -102,11 +102,15 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
     report.method = methods_of(report.clouds);
     explain_crop(described, report.plan);
     const SkyAnimation animation(scene);
-    for (int frame = frames.first; frame <= frames.last; ++frame) {
+    const int run = film_run(scene), first = frames.first;
+    const int begin = run > 0 ? first - first % run : first;
+    for (int frame = begin; frame <= frames.last; ++frame) {
         const RunStart frame_start;
         Image image;
         PILEUS_TRY(animation.set(frame, sky));
+        if (run > 0 && frame % run == 0) clouds.restart();
         PILEUS_TRY(draw_image(scene, sky, clouds, image, report));
+        if (frame < first) continue;
         PILEUS_TRY(cut_image(sky.camera(), shown, image));
         report.digests.clear();
         take_hash(context, image, report);

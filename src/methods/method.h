@@ -39,6 +39,7 @@ struct FrameView {
 struct ViewChange {
     bool new_sky = false;    ///< the sky map is another one, the air's among them
     bool new_shine = false;  ///< what shines is another but for the sun's direction: same_shine
+    bool new_run = false;    ///< of a film: pictures before this one count no more
 };
 
 struct RenderAsk {

@@ -61,6 +61,10 @@ Status PhotonMethod::set_view(const Context& context, const FrameView& view,
                               const ViewChange& change) {
     if (shared_.hosted) return relight(context, view, change.new_sky);
     follow_lights(view, shared_);
+    if (change.new_run) {
+        shared_.picture.upsample.ready = false;
+        forget_sun_shadow(shared_);
+    }
     return Status::ok();
 }
 

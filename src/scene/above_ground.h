@@ -4,6 +4,7 @@
 // in: the lowest height of a medium's box, the ground -> out: whether it is below, and the fault.
 // docs/scene.md, "Media"
 #pragma once
+#include "src/base/number_text.h"
 #include "src/base/status.h"
 #include "src/scene/scene.h"
 #include "src/scene/toml/toml_tree.h"

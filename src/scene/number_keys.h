@@ -8,6 +8,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "src/base/number_text.h"
 #include "src/base/single.h"
 #include "src/base/status.h"
 #include "src/scene/scene.h"

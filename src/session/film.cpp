@@ -100,16 +100,18 @@ bool Session::is_first() const {
 }
 
 /// A film tells of no change: methods see by themselves that the sun has moved.
-Status Session::film_view(int frame) {
+Status Session::film_view(int frame, bool new_run) {
     scenery_.light(frame);
-    return made_.method->set_view(context_, scenery_.view(frame), {});
+    ViewChange change;
+    change.new_run = new_run;
+    return made_.method->set_view(context_, scenery_.view(frame), change);
 }
 
 Status Session::film_generation(std::uint64_t number, std::uint64_t ring) {
     // Those before the first whole ring are shot under frame 0's sun.
     const int shown = number < ring ? 0 : int(number - ring + 1);
     move_to(shown);
-    PILEUS_TRY(film_view(shown));
+    PILEUS_TRY(film_view(shown, false));
     std::uint64_t done = 0;
     return made_.method->accumulate(context_, scenery_.view(shown), 1, done);
 }
@@ -136,7 +138,7 @@ Status Session::film_ring(const FilmFrame& step) {
         }
     }
     move_to(step.frame);
-    if (!method.progress().interrupted) return film_view(step.frame);
+    if (!method.progress().interrupted) return film_view(step.frame, step.new_run);
     return {Code::kCheckFailed,
             "interrupted before the frame's ring of generations was whole; no file written"};
 }
@@ -147,7 +149,7 @@ Status Session::light_frame(const FilmFrame& step) {
     if (light.ring > 0) return film_ring(step);
     // The same random numbers in each frame, so that noise stays where it is.
     if (light.one_sum && scene_.animation.present) method.restart(context_, 0);
-    PILEUS_TRY(film_view(step.frame));
+    PILEUS_TRY(film_view(step.frame, step.new_run));
     if (!options_.parts) return film_light(scenery_.view(step.frame));
     std::uint64_t done = 0;
     PILEUS_TRY(method.accumulate(context_, scenery_.view(step.frame), 0, done));

@@ -4,6 +4,7 @@
 
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
+#include "src/methods/registry.h"
 #include "src/picture/background.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
@@ -63,7 +64,8 @@ bool has_worlds(const Scene& scene) { return has_sequence(scene) || moves_wind(s
 Status render_frames(const Scene& scene, const Shown& shown, const RunStart& start,
                      const RenderOptions& options, const Frames& frames,
                      const std::shared_ptr<const World>& world, const FrameSink& sink) {
-    const FrameState opened = opened_at(scene, frames.first);
+    const int first = frames.first;
+    const FrameState opened = opened_at(scene, first);
     Session session;
     PILEUS_TRY(session.open_film(scene, opened, options, true, world));
     Report& report = session.report();
@@ -73,12 +75,14 @@ Status render_frames(const Scene& scene, const Shown& shown, const RunStart& sta
     if (verifies)
         PILEUS_TRY(verifier.open(scene, opened, std::uint64_t(options.verify), session.context(),
                                  session.scenery().world));
-    for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
+    const int run = film_run(scene), begin = run > 0 ? first - first % run : first;
+    for (int frame = begin; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
         Image image;
-        PILEUS_TRY(draw_frame(scene, session, {frame, frame == frames.first, frame == frames.last},
-                              image));
-        if (!session.is_first()) continue;
+        const bool anew = run > 0 && frame % run == 0;
+        PILEUS_TRY(
+            draw_frame(scene, session, {frame, frame == begin, frame == frames.last, anew}, image));
+        if (!session.is_first() || frame < first) continue;
         session.finish_report();
         report.budget_used = budget_used(session.method_report(), options.budget, frame, report);
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, shown, report));
@@ -126,6 +130,15 @@ Status draw_frame(const Scene& scene, Session& session, const FilmFrame& step, I
 }
 
 bool frames_stand_alone(const Scene& scene) { return has_worlds(scene) || has_moving_sky(scene); }
+
+int film_run(const Scene& scene) {
+    constexpr int kFrames = 16;
+    if (!scene.animation.present || scene.animation.frames < 2) return 0;
+    if (scene.clouds.present()) return kFrames;
+    const MethodTools tools = method_tools(scene.method);
+    if (frames_stand_alone(scene) || tools.film_memory == nullptr) return 0;
+    return tools.film_memory(scene).pictures ? kFrames : 0;
+}
 
 Status render(const Scene& described, const RenderOptions& options, const FrameSink& sink) {
     PILEUS_TRY(check_crop(described, options.budget, !options.show.empty()));

@@ -60,6 +60,11 @@ using FrameSink = std::function<Status(int frame, Image& image, Report& report)>
 /// Whether each frame is rendered by itself, over a density or below a sky of its own.
 bool frames_stand_alone(const Scene& scene);
 
+/// Frames after which a film begins anew, where its pictures depend on those before them: frame
+/// f on those from f - f % film_run on, which are drawn first wherever a range of frames begins. 0:
+/// none depends on others.
+int film_run(const Scene& scene);
+
 /// Renders frames [first_frame, last_frame] (a still scene has frame 0 only) by the scene's
 /// method; after an interrupted one no further frame comes. Errors: kBadInput (scene, files, isa,
 /// show, a budget of another method, a foreign state), kLimit (memory), kIo, kCheckFailed

@@ -45,6 +45,7 @@ Shine shine_of(const Lighting& lighting);
 struct FilmFrame {
     int frame = 0;
     bool first = true, last = true;
+    bool new_run = false;  ///< pictures before this one count no more
 };
 
 struct StateFile;
@@ -196,7 +197,7 @@ private:
     /// The light of it, until the method's goal is met or the user wants an end.
     Status film_light(const FrameView& view);
     Status film_passes(const FrameView& view, const LightGoal& goal, StateFile& file);
-    Status film_view(int frame);
+    Status film_view(int frame, bool new_run);
     /// Of a method that keeps a ring: each generation for the view of its own frame.
     Status film_ring(const FilmFrame& step);
     Status film_generation(std::uint64_t number, std::uint64_t ring);

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "src/base/number_text.h"
+
 namespace pileus {
 namespace {
 
@@ -26,10 +28,8 @@ void warn_of_nodes(Report& report) {
     constexpr double kMaxNodeDepth = 4;
     const OrdinateFigures& o = report.ordinates;
     if (o.nodes == 0 || !(o.node_depth > kMaxNodeDepth)) return;
-    char text[32];
-    (void)std::snprintf(text, sizeof text, "%.3g", o.node_depth);
     report.warnings.push_back("light.ordinates: scattered light is solved for on nodes of up to " +
-                              std::string(text) +
+                              number_text(o.node_depth, 3) +
                               " optical depths: it may be darker by a tenth and more "
                               "(docs/ordinates.md, \"Bounds\"; method "
                               "path has no nodes)");
@@ -78,10 +78,8 @@ void warn_of_cells(const Medium& medium, double cell_m, Report& report) {
     constexpr double kMostDepth = 8;
     const double depth = max_extinction(medium) * cell_m;
     if (!(depth > kMostDepth)) return;
-    char text[32];
-    (void)std::snprintf(text, sizeof text, "%.3g", depth);
     report.warnings.push_back(
-        "media: scattered light has one value in cells of up to " + std::string(text) +
+        "media: scattered light has one value in cells of up to " + number_text(depth, 3) +
         " optical depths: thick rims may be darker by a third and more (finer cells by "
         "medium.N.resolution or more photons; method path has none)");
 }

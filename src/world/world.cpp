@@ -3,6 +3,7 @@
 #include "src/world/world.h"
 
 #include "src/base/file.h"
+#include "src/base/number_text.h"
 #include "src/base/reading_limit.h"
 #include "src/base/single.h"
 #include "src/io/particles/placed_particles.h"

@@ -12,6 +12,7 @@
 #include "tests/support/long_tests.h"
 
 using namespace pileus;
+using test::check_refused;
 using test::holds;
 using test::Outcome;
 using test::ProgramFolder;
@@ -31,18 +32,6 @@ Names types(const ProgramFolder& folder) {
     REQUIRE(names.back() == "FILE");
     names.pop_back();
     return names;
-}
-
-void check_refused(const ProgramFolder& folder, const std::string& arguments,
-                   const std::string& part) {
-    CAPTURE(arguments);
-    const Names before = folder.left();
-    const Outcome outcome = folder.run(arguments);
-    CHECK(outcome.exit_status == 2);
-    CHECK_MESSAGE(holds(outcome.errors, part), outcome.errors);
-    CHECK(test::line_count(outcome.errors) == 1);
-    CHECK(outcome.output == "");
-    CHECK(folder.left() == before);
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ std::vector<std::string> contents(const ProgramFolder& folder) {
 }
 
 /// One line, exit 2, every file as it was.
-void check_refused(const ProgramFolder& folder, const std::string& arguments,
-                   const std::string& part) {
+void check_kept(const ProgramFolder& folder, const std::string& arguments,
+                const std::string& part) {
     CAPTURE(arguments);
     const std::vector<std::string> before = contents(folder);
     const Outcome outcome = folder.run(arguments);
@@ -76,19 +76,19 @@ TEST_CASE("overwrite: render writes over nothing that its scene reads") {
     const std::string render = "render all.toml ";
     const std::string read = " output: is a file that the scene reads, allowed: another file\n";
     for (const char* name : {"cloud.pbrt", "phase.txt", "mesh.ply", "sky.pfm", "depth.pfm"})
-        check_refused(folder, render + "-o a.pfm --report " + name, name + (":" + read));
+        check_kept(folder, render + "-o a.pfm --report " + name, name + (":" + read));
     for (const char* name : {"sky.pfm", "depth.pfm"})
-        check_refused(folder, render + "-o " + name, name + (":" + read));
-    check_refused(folder, render + "--set method.name=path -o a.pfm --state cloud.pbrt",
-                  "cloud.pbrt:" + read);
-    check_refused(folder, render + "--blocks phase.txt", "phase.txt:" + read);
-    check_refused(folder, render + "-o a.pfm --report all.toml",
-                  "all.toml: output: is the scene itself");
-    check_refused(folder, render + "-o a.pfm --set output.files=[] --report ./mesh.ply",
-                  "./mesh.ply: output: is a file that the scene reads, mesh.ply, allowed");
+        check_kept(folder, render + "-o " + name, name + (":" + read));
+    check_kept(folder, render + "--set method.name=path -o a.pfm --state cloud.pbrt",
+               "cloud.pbrt:" + read);
+    check_kept(folder, render + "--blocks phase.txt", "phase.txt:" + read);
+    check_kept(folder, render + "-o a.pfm --report all.toml",
+               "all.toml: output: is the scene itself");
+    check_kept(folder, render + "-o a.pfm --set output.files=[] --report ./mesh.ply",
+               "./mesh.ply: output: is a file that the scene reads, mesh.ply, allowed");
     // Outputs of the scene itself, and names that an option brings.
-    check_refused(folder, render + "--set output.files=[sky.pfm]", "sky.pfm:" + read);
-    check_refused(folder, "render s.toml --set sky.map=sky.pfm -o sky.pfm", "sky.pfm:" + read);
+    check_kept(folder, render + "--set output.files=[sky.pfm]", "sky.pfm:" + read);
+    check_kept(folder, "render s.toml --set sky.map=sky.pfm -o sky.pfm", "sky.pfm:" + read);
 }
 
 TEST_CASE("overwrite: links of either kind are the files that they lead to") {
@@ -101,17 +101,17 @@ TEST_CASE("overwrite: links of either kind are the files that they lead to") {
     fs::create_directory_symlink("folder", files.path("other"));
     fs::create_symlink("new.pfm", files.path("folder/ahead.pfm"));
     for (const char* name : {"link.pfm", "hard.pfm"})
-        check_refused(folder, std::string("render all.toml -o ") + name,
-                      name + std::string(": output: is a file that the scene reads, sky.pfm, "));
+        check_kept(folder, std::string("render all.toml -o ") + name,
+                   name + std::string(": output: is a file that the scene reads, sky.pfm, "));
     // Two outputs are one file, whether it is there or not.
     const std::string same = "output: is the same file as ";
-    check_refused(folder, "render s.toml -o a.pfm --report ./a.pfm", "./a.pfm: " + same + "a.pfm");
-    check_refused(folder, "render s.toml -o folder/a.pfm other/a.pfm",
-                  "other/a.pfm: " + same + "folder/a.pfm");
-    check_refused(folder, "render s.toml -o folder/new.pfm other/ahead.pfm",
-                  "other/ahead.pfm: " + same + "folder/new.pfm");
-    check_refused(folder, "render s.toml -o no/a.pfm no/x/../a.pfm", same + "no/a.pfm");
-    check_refused(folder, "render s.toml -o hard.pfm link.pfm", "link.pfm: " + same + "hard.pfm");
+    check_kept(folder, "render s.toml -o a.pfm --report ./a.pfm", "./a.pfm: " + same + "a.pfm");
+    check_kept(folder, "render s.toml -o folder/a.pfm other/a.pfm",
+               "other/a.pfm: " + same + "folder/a.pfm");
+    check_kept(folder, "render s.toml -o folder/new.pfm other/ahead.pfm",
+               "other/ahead.pfm: " + same + "folder/new.pfm");
+    check_kept(folder, "render s.toml -o no/a.pfm no/x/../a.pfm", same + "no/a.pfm");
+    check_kept(folder, "render s.toml -o hard.pfm link.pfm", "link.pfm: " + same + "hard.pfm");
 }
 
 TEST_CASE("overwrite: every frame of an animation is looked at") {
@@ -120,8 +120,8 @@ TEST_CASE("overwrite: every frame of an animation is looked at") {
     fs::rename(folder.files().path("sky.pfm"), folder.files().path("sky.0002.pfm"));
     const std::string render =
         "render all.toml --set sky.map=sky.0002.pfm --set animation.frames=4 -o sky.pfm ";
-    check_refused(folder, render, "sky.0002.pfm: output: is a file that the scene reads");
-    check_refused(folder, render + "--frames 1-3", "sky.0002.pfm: output: is a file");
+    check_kept(folder, render, "sky.0002.pfm: output: is a file that the scene reads");
+    check_kept(folder, render + "--frames 1-3", "sky.0002.pfm: output: is a file");
     CHECK(folder.run(render + "--frames 3-3 --budget photons=10").exit_status == 0);
 }
 
@@ -130,12 +130,12 @@ TEST_CASE("overwrite: convert, compare") {
     put_all(folder);
     REQUIRE(folder.run("convert cloud.pbrt c.vdb").exit_status == 0);
     fs::create_symlink("c.vdb", folder.files().path("d.vdb"));
-    check_refused(folder, "convert c.vdb c.vdb", "c.vdb: output: is the grid that is read");
-    check_refused(folder, "convert c.vdb d.vdb", "d.vdb: output: is the grid that is read, c.vdb");
-    check_refused(folder, "compare sky.pfm depth.pfm --difference sky.pfm",
-                  "sky.pfm: output: is a picture to compare");
-    check_refused(folder, "compare sky.pfm depth.pfm --difference x.pfm --flip ./x.pfm",
-                  "./x.pfm: output: is the same file as x.pfm");
+    check_kept(folder, "convert c.vdb c.vdb", "c.vdb: output: is the grid that is read");
+    check_kept(folder, "convert c.vdb d.vdb", "d.vdb: output: is the grid that is read, c.vdb");
+    check_kept(folder, "compare sky.pfm depth.pfm --difference sky.pfm",
+               "sky.pfm: output: is a picture to compare");
+    check_kept(folder, "compare sky.pfm depth.pfm --difference x.pfm --flip ./x.pfm",
+               "./x.pfm: output: is the same file as x.pfm");
 }
 
 TEST_CASE("overwrite: a study") {
@@ -151,12 +151,11 @@ TEST_CASE("overwrite: a study") {
     }
     fs::create_directories(folder.files().path("out/plots"));
     fs::create_hard_link(folder.files().path("mesh.ply"), folder.files().path("out/study.md"));
-    check_refused(folder, "study study.toml -o out",
-                  "out/study.md: output: is a file that a scene reads, mesh.ply");
+    check_kept(folder, "study study.toml -o out",
+               "out/study.md: output: is a file that a scene reads, mesh.ply");
     fs::remove(folder.files().path("out/study.md"));
     fs::create_symlink("../../study.toml", folder.files().path("out/plots/box.svg"));
-    check_refused(folder, "study study.toml -o out",
-                  "out/plots/box.svg: output: is the study itself");
+    check_kept(folder, "study study.toml -o out", "out/plots/box.svg: output: is the study itself");
 }
 
 TEST_CASE("overwrite: the list of a scene's files, those of a glTF included") {

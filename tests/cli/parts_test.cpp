@@ -9,6 +9,7 @@ using test::holds;
 using test::line_count;
 using test::Outcome;
 using test::ProgramFolder;
+using test::ranks;
 
 namespace {
 
@@ -21,25 +22,6 @@ std::string hash_of(const Outcome& outcome) {
 std::string part(int index, int count, const std::string& more = "") {
     return "render s.toml -q " + more + " --part " + std::to_string(index) + "/" +
            std::to_string(count) + " -o p." + std::to_string(index) + ".part";
-}
-
-/// One line, exit status 2, and no file but these.
-void check_refused(const ProgramFolder& folder, const std::string& run, const std::string& words) {
-    CAPTURE(run);
-    const std::vector<std::string> before = folder.left();
-    const Outcome outcome = folder.run(run);
-    CAPTURE(outcome.errors);
-    CHECK(outcome.exit_status == 2);
-    CHECK(line_count(outcome.errors) == 1);
-    CHECK(holds(outcome.errors, words));
-    CHECK(folder.left() == before);
-}
-
-/// Starts the program by MPI's launcher; Open MPI wants to be asked twice by root.
-std::string ranks(int count) {
-    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-           "OMPI_MCA_rmaps_base_oversubscribe=1 mpirun -n " +
-           std::to_string(count);
 }
 
 }  // namespace

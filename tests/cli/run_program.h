@@ -87,5 +87,25 @@ inline long line_count(const std::string& text) {
     return long(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// Starts the program by MPI's launcher; Open MPI wants to be asked twice by root.
+inline std::string ranks(int count) {
+    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+           "OMPI_MCA_rmaps_base_oversubscribe=1 mpirun -n " +
+           std::to_string(count);
+}
+
+/// One line, exit 2, no new file.
+inline void check_refused(const ProgramFolder& folder, const std::string& arguments,
+                          const std::string& said) {
+    CAPTURE(arguments);
+    const std::vector<std::string> before = folder.left();
+    const Outcome outcome = folder.run(arguments);
+    CHECK(outcome.exit_status == 2);
+    CHECK(outcome.output == "");
+    CHECK_MESSAGE(line_count(outcome.errors) == 1, outcome.errors);
+    CHECK_MESSAGE(holds(outcome.errors, said), outcome.errors);
+    CHECK(folder.left() == before);
+}
+
 }  // namespace test
 }  // namespace pileus

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"

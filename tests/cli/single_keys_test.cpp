@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/number_text.h"
 #include "src/base/single.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"

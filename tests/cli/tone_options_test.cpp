@@ -6,26 +6,10 @@
 #include "tests/cli/run_program.h"
 
 using namespace pileus;
+using test::check_refused;
 using test::holds;
 using test::Outcome;
 using test::ProgramFolder;
-
-namespace {
-
-/// One line, exit 2, nothing written.
-void check_refused(const ProgramFolder& folder, const std::string& arguments,
-                   const std::string& part) {
-    CAPTURE(arguments);
-    const auto before = folder.left();
-    const Outcome outcome = folder.run(arguments);
-    CHECK(outcome.exit_status == 2);
-    CHECK_MESSAGE(holds(outcome.errors, part), outcome.errors);
-    CHECK(test::line_count(outcome.errors) == 1);
-    CHECK(outcome.output == "");
-    CHECK(folder.left() == before);
-}
-
-}  // namespace
 
 TEST_CASE("tone options: each changes what a display shows, and no radiance") {
     const ProgramFolder folder;

@@ -4,6 +4,7 @@
 // words. src/scene/number_keys.h; docs/scene.md
 #include <cmath>
 
+#include "src/base/number_text.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "tests/embed/clouds_harness.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "src/base/number_text.h"
 #include "src/scene/rows/phase_row.h"
 #include "src/scene/toml/toml_tree.h"
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/number_text.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/rows/phase_row.h"
 #include "src/world/phase/forward_share.h"

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "src/base/number_text.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 

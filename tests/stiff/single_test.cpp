@@ -4,6 +4,7 @@
 // src/base/single.h; docs/scene.md, "Small numbers"
 #include <fstream>
 
+#include "src/base/number_text.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tests/io/temp_folder.h"
 #include "tests/stiff/stiff_scene.h"

@@ -93,6 +93,49 @@ TEST_CASE("a study is made, is made again from what is there, and mends what is 
     CHECK(count_of(mended.errors, " left\n") == 2);
 }
 
+TEST_CASE("a study in parts, and by ranks, makes each run once") {
+    const ProgramFolder folder;
+    put_study(folder);
+    const TempFolder& files = folder.files();
+    long made = 0;
+    for (int i = 1; i <= 3; ++i) {
+        const Outcome part = folder.run(
+            "study study.toml -o out --threads 1 --part " + std::to_string(i) + "/3", kNoData);
+        INFO(part.errors);
+        REQUIRE(part.exit_status == 0);
+        const long own = count_of(part.errors, " left\n");
+        const std::string text = std::to_string(own);
+        CHECK(part.output == text + " of " + text + " runs of this part are in out\n");
+        made += own;
+    }
+    CHECK(made == kRuns);
+    for (const std::string& file : folder.left()) CHECK_FALSE(holds(file, "index.html"));
+    const Outcome all = folder.run("study study.toml -o out --threads 1", kNoData);
+    CHECK(all.exit_status == 0);
+    CHECK(all.errors == "14 of 14 runs are there already\n");
+    const std::string page = files.get("out/study.md");
+    check_refused(folder, "study study.toml -o out --part 4/3", "--part I: ");
+    check_refused(folder, "study study.toml -o out --part x", "--part: \"x\", allowed: I/N");
+
+    if (!holds(folder.run("info").output, "mpi            yes")) return;
+    const Outcome ranked =
+        folder.run("study study.toml -o mpi --threads 1", std::string(kNoData) + ranks(3));
+    INFO(ranked.errors);
+    REQUIRE(ranked.exit_status == 0);
+    CHECK(count_of(ranked.errors, " left\n") == kRuns);
+    CHECK(count_of(files.get("mpi/study.json"), "\"earlier\": true") == 0);
+    CHECK(holds(ranked.output, "mpi/index.html"));
+    // The pictures are the same, whoever made them.
+    const auto hashes = [&](const std::string& json) {
+        std::string out;
+        for (std::size_t at = json.find("\"hash\": \""); at != std::string::npos;
+             at = json.find("\"hash\": \"", at + 1))
+            out += json.substr(at + 9, 16) + '\n';
+        return out;
+    };
+    CHECK(hashes(files.get("mpi/study.json")) == hashes(files.get("out/study.json")));
+}
+
 TEST_CASE("a run's name changes with every file that it reads") {
     const ProgramFolder folder;
     const TempFolder& files = folder.files();
@@ -228,6 +271,12 @@ TEST_CASE("a process tells how it ended and what it cost") {
     CHECK_FALSE(good.interrupted);
     const ProcessResult killed = run_process({"/bin/sh", "-c", "kill -KILL $$"}, hold);
     CHECK(killed.exit_status == 128 + SIGKILL);
+    const std::vector<std::string> ask{"/bin/sh", "-c", "echo \"$HOME${PMI_X-none}\" >&2"};
+    REQUIRE(setenv("PMI_X", "seen", 1) == 0);
+    const std::string home = std::getenv("HOME");
+    CHECK(run_process(ask, hold).errors == home + "seen\n");
+    CHECK(run_process(ask, hold, {"PMI_"}).errors == home + "none\n");
+    unsetenv("PMI_X");
     const ProcessResult missing = run_process({"/no/such/program"}, hold);
     CHECK(missing.system_error == ENOENT);
     // A busy loop of known length: more CPU time than a sleep of the same wall time.

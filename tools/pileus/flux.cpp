@@ -173,7 +173,7 @@ Status write_flux_part(const FluxArguments& arguments, const Scene& scene, Rende
         return Status::bad_input(
             "--part: no part knows how far the others are, allowed: --budget samples=N or "
             "photons=N");
-    PILEUS_TRY(choose_part(*arguments.part, false, options));
+    PILEUS_TRY(choose_part(*arguments.part, 0, options));
     KeptShare kept(options.part);
     options.sharing = &kept;
     options.part = WorkPart();
@@ -227,7 +227,7 @@ Status run_flux(FluxArguments& arguments) {
     ToldShare told(parts);
     options.sharing = parts.empty() ? rank_share() : &told;
     if (options.sharing == rank_share() && !arguments.scene.threads)
-        PILEUS_TRY(share_ranks(false, false, options));
+        PILEUS_TRY(share_ranks(false, 0, options));
     const bool first = ranks().is_first();
     Progress progress(first && !arguments.quiet && stderr_is_terminal());
     options.progress = [&progress](const char* stage, double share) {

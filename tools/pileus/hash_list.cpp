@@ -8,7 +8,7 @@
 #include <map>
 
 #include "src/base/file.h"
-#include "src/base/text_mark.h"
+#include "src/base/printable.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/option_text.h"
 

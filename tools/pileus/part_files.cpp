@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "src/base/file.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/session/parts/parts.h"
@@ -27,13 +29,18 @@ void add_part_options(CLI::App& command, PartArguments& arguments) {
         ->type_name("SIDE");
 }
 
-Status choose_part(const PartArguments& arguments, bool film, RenderOptions& options) {
+int divided_run(const Scene& scene) {
+    const bool film = scene.animation.present && scene.animation.frames > 1;
+    return film ? std::max(film_run(scene), 1) : 0;
+}
+
+Status choose_part(const PartArguments& arguments, int run, RenderOptions& options) {
     if (!arguments.part) return Status::ok();
-    if (!arguments.tiles) return choose_part(*arguments.part, film, options);
+    if (!arguments.tiles) return choose_part(*arguments.part, run, options);
     return Status::bad_input("--tiles: together with --part, allowed: one of both");
 }
 
-Status choose_part(const std::string& text, bool film, RenderOptions& options) {
+Status choose_part(const std::string& text, int run, RenderOptions& options) {
     const std::size_t slash = text.find('/');
     std::int64_t index = 0, count = 0;
     if (slash == std::string::npos)
@@ -41,13 +48,17 @@ Status choose_part(const std::string& text, bool film, RenderOptions& options) {
                                  ", allowed: I/N, such as 2/8, 1 <= I <= N");
     PILEUS_TRY(read_integer("--part N", text.substr(slash + 1), 1, kMostParts, count));
     PILEUS_TRY(read_integer("--part I", text.substr(0, slash), 1, count, index));
-    if (!film) {
+    if (run == 0) {
         options.part = {std::uint32_t(index - 1), std::uint32_t(count), true};
         return Status::ok();
     }
-    const std::int64_t first = options.first_frame, frames = options.last_frame - first + 1;
-    options.first_frame = int(first + frames * (index - 1) / count);
-    options.last_frame = int(first + frames * index / count - 1);
+    const std::int64_t first = options.first_frame, last = options.last_frame;
+    const std::int64_t frames = last - first + 1;
+    // Whole runs where there are enough of them.
+    const std::int64_t unit = last / run - first / run + 1 >= count ? run : 1;
+    const std::int64_t begin = first / unit, units = last / unit - begin + 1;
+    options.first_frame = int(std::max(first, (begin + units * (index - 1) / count) * unit));
+    options.last_frame = int(std::min(last, (begin + units * index / count) * unit - 1));
     if (options.first_frame <= options.last_frame) return Status::ok();
     return Status::bad_input("--part: " + text + " of " + std::to_string(frames) +
                              " frames has none, allowed: at most as many parts as frames");

@@ -22,9 +22,13 @@ struct PartArguments {
 /// Adds --part and --tiles to a subcommand.
 void add_part_options(CLI::App& command, PartArguments& arguments);
 
-/// Reads "I/N" of --part, 1 <= I <= N. Of a film it chooses frames, which are rendered whole.
-Status choose_part(const PartArguments& arguments, bool film, RenderOptions& options);
-Status choose_part(const std::string& text, bool film, RenderOptions& options);
+/// Frames that one process best renders of a film, which is divided by whole frames; 0: a picture,
+/// which is divided itself.
+int divided_run(const Scene& scene);
+
+/// Reads "I/N" of --part, 1 <= I <= N; `run` is divided_run.
+Status choose_part(const PartArguments& arguments, int run, RenderOptions& options);
+Status choose_part(const std::string& text, int run, RenderOptions& options);
 
 /// Whether a part of a picture is asked for.
 inline bool is_part(const RenderOptions& options) { return options.part.given; }

@@ -114,19 +114,18 @@ void find_budgets(const Origin& origin, PictureScene& out) {
     }
 }
 
-/// Films whose frames depend on those before them.
+/// Films whose frames depend on where they began.
 bool remembers(const PictureScene& picture, const Scene& scene, bool& clocked) {
     clocked = false;
-    // Clouds that are far are shown by pictures of earlier frames, and light may be late.
-    if (scene.clouds.present()) return true;
     const MethodTools tools = method_tools(scene.method);
     if (frames_stand_alone(scene) || tools.film_memory == nullptr) return false;
     const FilmMemory memory = tools.film_memory(scene);
     // A ring that was cut short grows by a generation a frame; other frames end as they like.
-    clocked = picture.ended && memory.pictures && !memory.ring;
+    const int run = film_run(scene);
+    clocked = picture.ended && run > 0 && picture.frame % run != 0 && !memory.ring;
     bool cut = picture.ended;
     for (const std::string& budget : picture.budgets) cut |= budget.rfind("generations=", 0) == 0;
-    return memory.pictures || (cut && memory.ring);
+    return cut && memory.ring;
 }
 
 bool is_there(const std::string& path) {
@@ -192,7 +191,7 @@ Status picture_frames(const PictureScene& picture, const Scene& scene, int& firs
                                  ", allowed: 0 to " + std::to_string(frames - 1) + ", or --frames");
     bool clocked = false;
     const bool from_first = remembers(picture, scene, clocked);
-    if (clocked && picture.first_frame < picture.frame)
+    if (clocked)
         return Status::bad_input(picture.file +
                                  ": cannot be made again, it depends on frames before it that a "
                                  "time ended, allowed: --budget");

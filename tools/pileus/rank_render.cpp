@@ -47,17 +47,17 @@ Status show(const Scene& scene, const RenderOptions& options, const std::vector<
 
 }  // namespace
 
-Status share_ranks(bool has_threads, bool film, RenderOptions& options) {
+Status share_ranks(bool has_threads, int run, RenderOptions& options) {
     const Ranks& r = ranks();
     if (r.count == 1) return Status::ok();
     // Ranks of one machine that are bound to no processors share all.
     if (!has_threads) options.threads = std::max(hardware_threads() / r.beside, 1);
-    if (!film) return Status::ok();
+    if (run == 0) return Status::ok();
     const int frames = options.last_frame - options.first_frame + 1;
     if (frames < r.count)
         return Status::bad_input("mpirun: " + std::to_string(r.count) + " ranks for " +
                                  std::to_string(frames) + " frames, allowed: as many or fewer");
-    return choose_part(std::to_string(r.rank + 1) + "/" + std::to_string(r.count), true, options);
+    return choose_part(std::to_string(r.rank + 1) + "/" + std::to_string(r.count), run, options);
 }
 
 /// Whether light is traced until something is reached that all ranks have to know.

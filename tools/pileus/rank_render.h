@@ -8,8 +8,8 @@
 namespace pileus {
 
 /// What of the work is each rank's, where there are several: all of it in parts, or of a film its
-/// share of the frames. kBadInput: fewer frames than ranks.
-Status share_ranks(bool has_threads, bool film, RenderOptions& options);
+/// share of the frames, by `run` as choose_part has it. kBadInput: fewer frames than ranks.
+Status share_ranks(bool has_threads, int run, RenderOptions& options);
 
 /// As render; all ranks call it, with the same scene. A film's frames come one after the other to
 /// whom they fall: `sink` is called by every rank.

@@ -22,6 +22,8 @@ struct Ranks {
 
 /// Whether the program was built with MPI.
 bool has_mpi();
+/// Names with which the variables begin that a launcher sets, for a process that it did not start.
+inline const char* const kLauncherVariables[] = {"OMPI_", "PMI_", "PMIX_"};
 
 /// The ranks that a launcher of MPI started this program among; alone where none did. The first
 /// call begins MPI. Calls are made by one thread, by all ranks in one order.

@@ -71,7 +71,7 @@ void take_scene(RenderArguments& arguments) {
 
 /// What is to be seen, and how bright.
 Status read_view(const RenderArguments& arguments, RenderOptions& options, Outputs& outputs) {
-    constexpr std::int64_t kMostVerified = 1000000;  // pixels, a thousand paths each
+    constexpr std::int64_t kMaxVerified = 1000000;  // pixels, a thousand paths each
     Status faults;
     if (arguments.show) {
         MethodRow view;
@@ -83,7 +83,7 @@ Status read_view(const RenderArguments& arguments, RenderOptions& options, Outpu
     add_fault(read_tone(arguments.tone, outputs.tone), faults);
     outputs.says_exposure = outputs.tone.automatic && !arguments.quiet;
     if (arguments.verify)
-        add_fault(read_integer("--verify", *arguments.verify, 1, kMostVerified, options.verify),
+        add_fault(read_integer("--verify", *arguments.verify, 1, kMaxVerified, options.verify),
                   faults);
     if (arguments.verify && arguments.show)
         add_fault(Status::bad_input("--verify: a view is no picture of light, allowed: without "
@@ -193,7 +193,7 @@ Status read_arguments(RenderArguments& arguments, Scene& scene, RenderOptions& o
     PILEUS_TRY(faults);
     PILEUS_TRY(check_cloud_options(arguments, scene));
     PILEUS_TRY(choose_frames(arguments, scene, options, outputs));
-    PILEUS_TRY(choose_part(arguments.parts, outputs.numbered, options));
+    PILEUS_TRY(choose_part(arguments.parts, divided_run(scene), options));
     if (arguments.parts.tiles && (arguments.world_file || arguments.strict))
         return Status::bad_input("--tiles: with --world-file or --strict, allowed: without these");
     if (is_part(options) || !outputs.blocks.file.empty())
@@ -293,7 +293,7 @@ Status run_render(RenderArguments& arguments) {
     if (read && ranks().count > 1 && (arguments.parts.given() || arguments.blocks.file))
         read = Status::bad_input(
             "--part, --tiles, --blocks: among ranks of MPI, allowed: one process");
-    if (read) read = share_ranks(bool(arguments.scene.threads), outputs.numbered, options);
+    if (read) read = share_ranks(bool(arguments.scene.threads), divided_run(scene), options);
     PILEUS_TRY(agree(read));
 
     const bool first = ranks().is_first();

@@ -4,8 +4,10 @@
 // docs/study.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -20,6 +22,8 @@
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"
 #include "tools/pileus/option_text.h"
+#include "tools/pileus/part_files.h"
+#include "tools/pileus/ranks.h"
 #include "tools/study/study_execute.h"
 #include "tools/study/study_report.h"
 
@@ -29,7 +33,7 @@ namespace {
 
 struct StudyArguments {
     std::string file;
-    std::optional<std::string> folder, references, threads, isa, program;
+    std::optional<std::string> folder, references, threads, isa, program, part;
     std::vector<std::string> scenes, methods;
     bool list = false, quiet = false;
 };
@@ -40,7 +44,8 @@ Status read_options(const StudyArguments& arguments, StudyOptions& options) {
     options.references = arguments.references.value_or("");
     options.program = arguments.program.value_or(own_program(nullptr));
     options.version = kVersion;
-    options.threads = hardware_threads();
+    options.threads = std::max(hardware_threads() / ranks().beside, 1);
+    options.hidden.assign(std::begin(kLauncherVariables), std::end(kLauncherVariables));
     options.isa = arguments.isa.value_or("");
     options.only_scenes = arguments.scenes;
     options.only_methods = arguments.methods;
@@ -89,17 +94,26 @@ std::string result_lines(const Study& study, const StudyOptions& options,
     return text + options.folder + "/index.html\n";
 }
 
-Status run_study(const StudyArguments& arguments) {
-    Study study;
-    StudyOptions options;
-    std::vector<StudyRun> runs;
-    std::vector<RunRecord> records;
-    PILEUS_TRY(read_options(arguments, options));
-    PILEUS_TRY(read_study_file(arguments.file, study));
-    PILEUS_TRY(list_runs(study, options, runs));
-    if (arguments.list) return print_runs(runs);
-    if (!arguments.quiet) options.progress = tell;
+/// Which of the runs are made here.
+Status choose_share(const StudyArguments& arguments, WorkPart& share) {
+    const Ranks& r = ranks();
+    if (r.count > 1) share = {std::uint32_t(r.rank), std::uint32_t(r.count), true};
+    if (!arguments.part) return Status::ok();
+    if (r.count > 1) return Status::bad_input("--part: among ranks of MPI, allowed: one process");
+    RenderOptions options;
+    PILEUS_TRY(choose_part(*arguments.part, 0, options));
+    share = options.part;
+    return Status::ok();
+}
 
+std::vector<StudyRun> runs_of(const WorkPart& share, const std::vector<StudyRun>& all) {
+    std::vector<StudyRun> own;
+    for (std::size_t i = share.index; i < all.size(); i += share.count) own.push_back(all[i]);
+    return own;
+}
+
+Status make_runs(const Study& study, const StudyOptions& options, const std::vector<StudyRun>& runs,
+                 std::vector<RunRecord>& records) {
     bool stopped = false;
     {
         const InterruptHold hold;
@@ -107,6 +121,57 @@ Status run_study(const StudyArguments& arguments) {
     }
     // The signal that stopped us has ended the program unless its sender ignores it.
     if (stopped) return {Code::kCheckFailed, "pileus study: interrupted"};
+    return Status::ok();
+}
+
+Status failed_runs(std::size_t failed) {
+    if (failed == 0) return Status::ok();
+    return {Code::kCheckFailed, fmt::format("pileus study: {} runs failed", failed)};
+}
+
+/// Makes a share of the runs, of which the folder then has the records.
+Status make_share(const Study& study, const StudyOptions& options,
+                  const std::vector<StudyRun>& runs) {
+    std::vector<RunRecord> records;
+    PILEUS_TRY(make_runs(study, options, runs, records));
+    std::size_t failed = 0;
+    for (const RunRecord& record : records) failed += record.done ? 0 : 1;
+    // Rank 0 tries what failed again, and tells of it.
+    if (ranks().count > 1) return Status::ok();
+    PILEUS_TRY(print(fmt::format("{} of {} runs of this part are in {}\n", runs.size() - failed,
+                                 runs.size(), options.folder)));
+    return failed_runs(failed);
+}
+
+Status run_study(const StudyArguments& arguments) {
+    Study study;
+    StudyOptions options;
+    WorkPart share;
+    std::vector<StudyRun> runs;
+    std::vector<RunRecord> records;
+    const auto read = [&] {
+        PILEUS_TRY(read_options(arguments, options));
+        PILEUS_TRY(choose_share(arguments, share));
+        PILEUS_TRY(read_study_file(arguments.file, study));
+        return list_runs(study, options, runs);
+    };
+    PILEUS_TRY(agree(read()));
+    const bool first = ranks().is_first();
+    if (arguments.list && ranks().count > 1) share = {};
+    if (arguments.list) return first ? print_runs(runs_of(share, runs)) : Status::ok();
+    if (!arguments.quiet) options.progress = tell;
+
+    std::vector<bool> earlier;
+    if (ranks().count > 1) {
+        // Before any rank begins.
+        RunRecord record;
+        for (const StudyRun& run : runs) earlier.push_back(first && read_record(run, record));
+        PILEUS_TRY(agree(Status::ok()));
+    }
+    if (share.given) PILEUS_TRY(agree(make_share(study, options, runs_of(share, runs))));
+    if (arguments.part || !first) return Status::ok();
+    PILEUS_TRY(make_runs(study, options, runs, records));
+    for (std::size_t i = 0; i < earlier.size(); ++i) records[i].earlier = earlier[i];
     StudyResult result;
     result.machine = {kVersion, compiler_text(),    processor_name(),
                       "",       hardware_threads(), options.threads};
@@ -115,8 +180,7 @@ Status run_study(const StudyArguments& arguments) {
     PILEUS_TRY(analyse_study(study, runs, records, result));
     PILEUS_TRY(write_study(study, options, result));
     PILEUS_TRY(print(result_lines(study, options, result)));
-    if (result.failed == 0) return Status::ok();
-    return {Code::kCheckFailed, fmt::format("pileus study: {} runs failed", result.failed)};
+    return failed_runs(std::size_t(result.failed));
 }
 
 }  // namespace
@@ -143,6 +207,11 @@ void add_study(CLI::App& app, Chosen& chosen) {
                      "The pileus to measure; left out: this one. Another of the same version, for "
                      "what it costs now and what it cost before")
         ->type_name("FILE");
+    command
+        ->add_option(
+            "--part", arguments->part,
+            "Makes this share of the runs and no page: the same call without it makes that")
+        ->type_name("I/N");
     command->add_option("--isa", arguments->isa, "Instruction set; left out: the widest")
         ->type_name("NAME");
     command->add_option("--scene", arguments->scenes, "Only this scene; may be repeated")

@@ -19,11 +19,11 @@ bool shows_tone(const std::string& path) {
 }
 
 Status read_stops(const std::string& text, ToneSettings& tone) {
-    constexpr double kMostStops = 64;
+    constexpr double kMaxStops = 64;
     tone.automatic = text == "auto";
     if (tone.automatic) return Status::ok();
     double stops = 0;
-    Status status = read_number("--exposure", text, -kMostStops, kMostStops, stops);
+    Status status = read_number("--exposure", text, -kMaxStops, kMaxStops, stops);
     if (!status) status.message += ", or auto";
     tone.stops = float(stops);
     return status;
@@ -64,7 +64,7 @@ Status read_tone(const ToneArguments& arguments, ToneSettings& tone) {
                                     ", allowed: " + tone_names()),
                   faults);
     if (arguments.white_balance)
-        add_fault(read_number("--white-balance", *arguments.white_balance, kLeastWhite, kMostWhite,
+        add_fault(read_number("--white-balance", *arguments.white_balance, kMinWhite, kMaxWhite,
                               tone.white_k),
                   faults);
     if (arguments.glare)

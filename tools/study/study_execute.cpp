@@ -43,7 +43,7 @@ Status run_once(const StudyOptions& options, const StudyRun& run, const Interrup
     words.insert(words.end(), run.words.begin(), run.words.end());
     for (const std::string& word : {std::string("-o"), run.image, std::string("--report"), report})
         words.push_back(word);
-    const ProcessResult result = run_process(words, hold);
+    const ProcessResult result = run_process(words, hold, options.hidden);
     // A picture of a run that was cut short is not the one that was asked for.
     if (result.interrupted || hold.pending()) {
         stopped = true;

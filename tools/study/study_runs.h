@@ -17,6 +17,9 @@ struct StudyOptions {
     std::string version;     ///< of the program: references made by another are not taken
     std::string isa;         ///< empty: the widest
     int threads = 1;         ///< of each run; runs follow one another
+    /// Names with which variables begin that runs do not see: a launcher's, which has not started
+    /// them.
+    std::vector<std::string> hidden;
     std::vector<std::string> only_scenes, only_methods;  ///< names; empty: all
     /// Told after every run, with the line for it; may be null.
     void (*progress)(void* context, const std::string& line) = nullptr;

@@ -2,7 +2,7 @@
 // See mesh_file.h. Reading goes through the library Assimp, which is loaded when a scene has a
 // mesh. in: a scene of its C interface, trusted in nothing -> out: corners. The only file that
 // touches the library; docs/solids.md, "Files".
-#include "src/base/text_mark.h"
+#include "src/base/printable.h"
 #include "src/io/meshes/mesh_file.h"
 
 #ifdef PILEUS_WITH_ASSIMP

@@ -3,8 +3,8 @@
 #include "src/io/particles/particle_file.h"
 
 #include "src/base/file.h"
+#include "src/base/printable.h"
 #include "src/base/reading_limit.h"
-#include "src/base/text_mark.h"
 #include "src/io/text/packed_bytes.h"
 #include "src/io/text/text_scan.h"
 

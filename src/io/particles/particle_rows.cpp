@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "src/base/number_text.h"
 #include "src/base/reading_limit.h"
 #include "src/base/single.h"
 
@@ -52,11 +53,7 @@ int role_of(std::string name) {
     return -1;
 }
 
-std::string number_of(double v) {
-    char text[32];
-    (void)std::snprintf(text, sizeof text, "%.9g", v);
-    return text;
-}
+std::string number_of(double v) { return number_text(v, 9); }
 
 }  // namespace
 

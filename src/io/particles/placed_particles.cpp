@@ -8,6 +8,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "src/base/file.h"
 #include "src/base/fnv1a64.h"
+#include "src/base/number_text.h"
 #include "src/base/random_streams.h"
 #include "src/base/single.h"
 #include "src/io/particles/particle_rows.h"

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
+#include "src/base/printable.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
-#include "src/base/text_mark.h"
 
 namespace pileus {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "platform/threads.h"
+#include "src/base/number_text.h"
 #include "src/io/volumes/volume_file.h"
 
 namespace pileus {
@@ -307,10 +308,8 @@ Status read_particle_head(const MediumSettings& medium, const std::string& path,
         if (most == 0 || r < least) least = r;
         if (r > most) most = r;
     }
-    char text[96];
-    (void)std::snprintf(text, sizeof text, "%llu particles, radius %.6g to %.6g m",
-                        static_cast<unsigned long long>(set.count), double(least), double(most));
-    head.detail = text;
+    head.detail = std::to_string(set.count) + " particles, radius " +
+                  number_text(double(least), 6) + " to " + number_text(double(most), 6) + " m";
     return Status::ok();
 }
 

@@ -3,6 +3,7 @@
 // in: uint8, uint16 or float32 values, x fastest -> out: floats, whole numbers scaled to 0..1.
 // docs/formats.md
 #include "src/base/file.h"
+#include "src/base/number_text.h"
 #include "src/io/volumes/undershoot.h"
 #include "src/io/volumes/volume_file.h"
 

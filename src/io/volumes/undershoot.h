@@ -7,6 +7,7 @@
 #include <charconv>
 #include <string>
 
+#include "src/base/number_text.h"
 #include "src/io/volumes/volume.h"
 #include "src/scene/toml/toml_tree.h"
 
@@ -29,17 +30,12 @@ public:
     bool is_fault() const { return double(least_) < -bound(); }
     /// Behind the place of the lowest value.
     std::string text() const {
-        return short_text(least_) + ", allowed: a finite number >= 0; down to " +
-               short_text(float(-bound())) + ", 1e-05 of the largest, it counts as 0";
+        return number_text(least_) + ", allowed: a finite number >= 0; down to " +
+               number_text(float(-bound())) + ", 1e-05 of the largest, it counts as 0";
     }
     void settle(Volume& volume) const { volume.clamped += count_; }
 
 private:
-    /// As few digits as tell the float.
-    static std::string short_text(float value) {
-        char text[32];
-        return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-    }
     double bound() const { return std::max(1e-5 * double(largest_), 1e-9); }
 
     float largest_ = 0, least_ = 0;

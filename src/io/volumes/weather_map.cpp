@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "src/base/angles.h"
+#include "src/base/number_text.h"
 #include "src/base/powers.h"
 #include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/volumes/volume_file.h"

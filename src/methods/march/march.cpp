@@ -355,23 +355,23 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
         ordinates = {b,           nodes.light.data(),  nodes.near.data(), nodes.peak.tables.data(),
                      in.surfaces, nodes.sunward.data()};
     }
+    // Where a device draws, it runs the others.
+    const KernelTable& kernels = host_kernels(context.kernels);
     const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (of_sky_ordinates)
-            host_kernels(context.kernels)
-                .ordinates_sky_rows(*of_sky_ordinates, ordinates, begin, end);
+            kernels.ordinates_sky_rows(*of_sky_ordinates, ordinates, begin, end);
         else if (of_ordinates && k.medium.detail != nullptr)
-            host_kernels(context.kernels)
-                .detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
+            kernels.detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (of_ordinates)
-            host_kernels(context.kernels).ordinates_rows(*of_ordinates, ordinates, begin, end);
+            kernels.ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (in.layer != nullptr)
-            context.kernels->raymarch_sky_rows(*of_sky, b, begin, end);
+            kernels.raymarch_sky_rows(*of_sky, b, begin, end);
         else if (k.medium.detail != nullptr)
-            context.kernels->detail_raymarch_rows(k, b, begin, end);
+            kernels.detail_raymarch_rows(k, b, begin, end);
         else
-            context.kernels->raymarch_rows(k, b, begin, end);
+            kernels.raymarch_rows(k, b, begin, end);
     };
     const DeviceTable* const device = of_ordinates ? nullptr : context.kernels->device;
     if (on_device(device))

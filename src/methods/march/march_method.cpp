@@ -68,9 +68,13 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
 /// Nodes of sunlight and sky are made again by the next picture where their light has changed.
 Status MarchMethod::set_view(const Context&, const FrameView& view, const ViewChange& change) {
     MarchPicture& picture = state_.picture;
-    if (change.new_sky || change.new_shine) {
+    if (change.new_sky || change.new_shine || change.new_run) {
         state_.light.sky_made = false;
         picture.upsample.ready = false;
+    }
+    if (change.new_run) {
+        state_.light.slices.held.clear();
+        state_.light.ground_shadow.slices.held.clear();
     }
     const auto& size = view.scene.camera.resolution;
     const bool opaque = view.lighting.opaque();

@@ -7,7 +7,6 @@
 #include "src/methods/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/finish_frame.h"
-#include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
 #include "src/world/camera/view.h"
@@ -169,11 +168,12 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     const Medium& medium = view.world.medium;
     const OrdinateNodes& made = state.light.ordinates;
     const bool levels = view.world.direct_sky;
-    OrdinateSizes sizes =
-        levels ? sky_level_sizes(medium, level_sizes(view, state.media.outlined_only))
-               : ordinate_sizes(medium, made);
-    sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting, !levels));
-    if (levels) sizes.sets = std::min(sizes.sets, kMaxSkySets);
+    OrdinateSizes sizes = lit_ordinate_sizes(medium, view.lighting, made);
+    if (levels) {
+        sizes = sky_level_sizes(medium, level_sizes(view, state.media.outlined_only));
+        sizes.sets =
+            std::min(std::uint64_t(ordinate_sets(medium, view.lighting, false)), kMaxSkySets);
+    }
     // Hosts have a spare level.
     if (levels && state.choice.hosted && sizes.levels > 1) ++sizes.levels;
     const bool moves = state.choice.hosted || view.scene.animation.frames > 1;
@@ -181,11 +181,8 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
         make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
     if (!made.density.empty() && !moves) sizes.moments = sees_moments(medium, camera, made.grid);
     sizes.sunlit = view.lighting.sunlit;
-    sizes.own = !levels && (!view.lighting.lamps.empty() || emits(medium));
     sizes.points = !levels && may_have_lamps(view, state.choice);
     sizes.solids = !levels && view.world.solids.meshes;
-    sizes.together = !levels;
-    if (!levels && view.lighting.ground) sizes.ground = most_ground_cells(medium);
     add_ordinate_rows(sizes, t);
 }
 

@@ -15,25 +15,6 @@
 namespace pileus {
 namespace {
 
-void light_by_sky(const Context& context, ParticlesState& state) {
-    const std::size_t count = state.tree.balls.size();
-    const SkyNodes& nodes = state.sky_nodes;
-    const std::uint64_t node_number = node_count(nodes.grid);
-    parallel_each(context.threads, count, [&](std::size_t i) {
-        float colour[3] = {};
-        const float* p = state.tree.balls[i].centre;
-        const Corners<float> at = node_corners(
-            node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}), nodes.grid.size, false);
-        for (int s = 0; s < nodes.sets; ++s) {
-            const float between =
-                interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
-            const float light = between > 0 ? between : 0;
-            for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
-        }
-        for (std::size_t c = 0; c < 3; ++c) state.sky[c * count + i] = colour[c];
-    });
-}
-
 /// What scattering leaves in place of light scattered once: octaves as raymarch has them.
 Octaves octaves_of(const ParticlesState& state) {
     const ParticlesSettings& s = state.settings;
@@ -70,6 +51,22 @@ Status light_by_sun(const Context& context, const FrameView& view, ParticlesStat
 }
 
 }  // namespace
+
+void light_by_nodes(const Context& context, const NodeGrid& grid, const float* light,
+                    std::size_t sets, const float (*colours)[3], ParticlesState& state) {
+    const std::size_t count = state.tree.balls.size(), nodes = std::size_t(node_count(grid));
+    parallel_each(context.threads, count, [&](std::size_t i) {
+        float sum[3] = {};
+        const float* p = state.tree.balls[i].centre;
+        const Corners<float> at =
+            node_corners(node_position(grid, Vec<float>{p[0], p[1], p[2]}), grid.size, false);
+        for (std::size_t s = 0; s < sets; ++s) {
+            const float between = interpolate(light + s * nodes, at);
+            for (int c = 0; c < 3; ++c) sum[c] += (between > 0 ? between : 0) * colours[s][c];
+        }
+        for (std::size_t c = 0; c < 3; ++c) state.sky[c * count + i] = sum[c];
+    });
+}
 
 LightPlaces light_places(const ParticlesSettings& settings, const std::array<float, 3>& to_light) {
     LightPlaces places;
@@ -175,7 +172,9 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
         state.sky.truncate(0);
         if (state.sky_nodes.sets > 0) {
             PILEUS_TRY(allocate_once(arrays::particle_sky(state.tree.balls.size()), state.sky));
-            light_by_sky(context, state);
+            const SkyNodes& nodes = state.sky_nodes;
+            light_by_nodes(context, nodes.grid, nodes.light.data(), std::size_t(nodes.sets),
+                           nodes.colour, state);
         }
     }
     state.lit = true;

@@ -4,8 +4,6 @@
 // docs/particles.md, "Light"; docs/ordinates.md
 #include <algorithm>
 
-#include "kernels_cpu/display/march_ray.h"
-#include "platform/threads.h"
 #include "src/methods/particles/particles_state.h"
 
 namespace pileus {
@@ -25,21 +23,12 @@ Status solve_particles(const Context& context, const FrameView& view, ParticlesS
 Status light_by_ordinates(const Context& context, const FrameView& view, ParticlesState& state) {
     OrdinateNodes& nodes = state.ordinates;
     const StageClock clock(context, "ordinates");
-    PILEUS_TRY(turn_light(context, view.world.medium, state.camera, nodes, nodes.light));
-    const std::size_t count = state.tree.balls.size();
-    const std::size_t number = std::size_t(node_count(nodes.grid));
-    PILEUS_TRY(allocate_once(arrays::particle_sky(count), state.sky));
-    parallel_each(context.threads, count, [&](std::size_t i) {
-        const float* p = state.tree.balls[i].centre;
-        const Corners<float> at = node_corners(
-            node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}), nodes.grid.size, false);
-        float colour[3] = {};
-        for (std::size_t s = 0; s < nodes.shown.size(); ++s) {
-            const float light = std::max(interpolate(nodes.light.data() + s * number, at), 0.0f);
-            for (std::size_t c = 0; c < 3; ++c) colour[c] += light * nodes.shown[s].colour[c];
-        }
-        for (std::size_t c = 0; c < 3; ++c) state.sky[c * count + i] = colour[c];
-    });
+    PILEUS_TRY(turn_light(context, view.world.medium, state.camera, nodes));
+    PILEUS_TRY(allocate_once(arrays::particle_sky(state.tree.balls.size()), state.sky));
+    float colours[kMaxShown][3];
+    for (std::size_t s = 0; s < nodes.shown.size(); ++s)
+        std::copy_n(nodes.shown[s].colour.data(), 3, colours[s]);
+    light_by_nodes(context, nodes.grid, nodes.light.data(), nodes.shown.size(), colours, state);
     return Status::ok();
 }
 

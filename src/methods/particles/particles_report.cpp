@@ -8,7 +8,6 @@
 #include "src/methods/particles/view_tiles.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/nodes/node_grid.h"
-#include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
 #include "src/world/plan_parts.h"
@@ -176,15 +175,10 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
     if (lamps > 0 || state.outlined_only || has_own_light(view, state))
         add(t, arrays::particle_around(particles));
     if (state.settings.scattering == ParticleScattering::kByNodes) {
-        const Medium& medium = view.world.medium;
-        OrdinateSizes sizes = ordinate_sizes(medium, state.ordinates);
-        sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting, true));
-        sizes.together = true;
+        OrdinateSizes sizes = lit_ordinate_sizes(view.world.medium, view.lighting, state.ordinates);
         sizes.moments = false;
         sizes.sunlit = view.lighting.sunlit;
-        sizes.own = lamps > 0 || emits(medium);
         sizes.points = state.hosted || !scene.lights.empty();
-        if (view.lighting.ground) sizes.ground = most_ground_cells(medium);
         add_ordinate_rows(sizes, t);
         add(t, arrays::particle_sky(particles));
     } else if (state.settings.sky_ambient) {

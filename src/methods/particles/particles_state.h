@@ -112,6 +112,9 @@ void choose_orders(const FrameView& view, ParticlesState& state);
 /// of memory.
 Status light_particles(const Context& context, const FrameView& view, ParticlesState& state);
 
+/// What nodes hold, [set][node], each set in its colour, at every ball, into `sky`, which there is.
+void light_by_nodes(const Context& context, const NodeGrid& grid, const float* light,
+                    std::size_t sets, const float (*colours)[3], ParticlesState& state);
 /// Solves for the light of the view; the nodes are prepared. kLimit: out of memory.
 Status solve_particles(const Context& context, const FrameView& view, ParticlesState& state);
 /// What solutions send from each ball towards the camera, into `sky`. kLimit: out of memory.

@@ -98,7 +98,6 @@ Entry entry_of(const Medium& medium, const float (&at)[3], const Look& look) {
 
 /// Beyond the map nothing is known: light ends at its rim without an edge.
 float rim_share(const OrdinateGround& ground, int x, int y) {
-    if (ground.whole) return 1;
     const int in_x = std::min(x, ground.map.size[0] - 1 - x),
               in_y = std::min(y, ground.map.size[1] - 1 - y);
     return std::min((float(std::min(in_x, in_y)) + 0.5f) / float(kRim), 1.0f);
@@ -123,15 +122,16 @@ GroundCell ground_cell(const OrdinateGround& ground, std::size_t cell) {
 template <class Value>
 void means_into_box(const OrdinateGround& ground, const Value& value, double (&out)[2]) {
     const std::size_t cells = std::size_t(node_count(ground.map));
-    for (std::size_t f = 0; f < 2; ++f) {
-        double sum = 0, all = 0;
-        for (std::size_t i = 0; i < cells; ++i) {
+    double sum[2] = {}, all[2] = {};
+    for (std::size_t i = 0; i < cells; ++i) {
+        const double own = double(value(i));
+        for (std::size_t f = 0; f < 2; ++f) {
             const double into = double(ground.into[f * cells + i]);
-            sum += into * double(value(i));
-            all += into;
+            sum[f] += into * own;
+            all[f] += into;
         }
-        out[f] = all > 0 ? sum / all : 0;
     }
+    for (std::size_t f = 0; f < 2; ++f) out[f] = all[f] > 0 ? sum[f] / all[f] : 0;
 }
 
 /// Means of the sunlight that comes through to the ground, by channel, on every second cell along x
@@ -187,7 +187,7 @@ bool lights_ground(const Medium& medium, const Lighting& lighting, const Ordinat
     return ask.ground && lighting.ground && !nodes.ring && lighting.ground_z < medium.extent_m[2];
 }
 
-std::uint64_t most_ground_cells(const Medium& medium) {
+std::uint64_t max_ground_cells(const Medium& medium) {
     const std::uint64_t cells = std::uint64_t(kCells) * kCells;
     return medium.grid.periodic ? max_ordinate_nodes(medium) : cells;
 }
@@ -207,7 +207,6 @@ Status place_ground(const Context& context, const Medium& medium, const Lighting
     NodeGrid map{};
     map.size[2] = 1;
     map.per_metre[2] = 1;
-    ground.whole = nodes.periodic;
     const double reach = nodes.periodic ? 0 : kReach * (medium.extent_m[2] - lighting.ground_z);
     for (int a = 0; a < 2; ++a) {
         map.size[a] = nodes.periodic ? nodes.grid.size[a] : kCells;
@@ -217,12 +216,12 @@ Status place_ground(const Context& context, const Medium& medium, const Lighting
     if (ground.map.size[0] == 0 || ground.z != lighting.ground_z) ground.known.fill(false);
     ground.map = map;
     ground.z = lighting.ground_z;
-    set_sun_rest(nodes);
     const std::uint64_t cells = node_count(map), sets = nodes.sets.size();
     if (ground.light.size() < cells * sets) ground.known.fill(false);
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, sets), ground.light));
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, 3), ground.radiance));
     if (ground.known[0]) return Status::ok();
+    set_sun_rest(nodes);
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, 2), ground.into));
     Look looks[kLooks];
     set_looks(looks);
@@ -267,7 +266,7 @@ Status light_ground(const Context& context, const Medium& medium, const Lighting
                                   nodes.periodic};
             sum += look.weight * (field.at(place) - set.enters[j]);
         }
-        light[cell] = sum * rim_share(ground, from_cell.x, from_cell.y);
+        light[cell] = nodes.periodic ? sum : sum * rim_share(ground, from_cell.x, from_cell.y);
     });
     double means[2];
     means_into_box(

@@ -28,7 +28,7 @@ Status mix_ground(const Context& context, const Medium& medium, const Majorants&
                   const Lighting& lighting, OrdinateNodes& nodes);
 
 /// Cells of the map, at most.
-std::uint64_t most_ground_cells(const Medium& medium);
+std::uint64_t max_ground_cells(const Medium& medium);
 
 /// Memory for any light. kLimit: out of memory.
 Status reserve_ground(OrdinateNodes& nodes);

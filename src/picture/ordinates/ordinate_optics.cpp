@@ -16,36 +16,43 @@ namespace {
 
 constexpr float kLeastRest = 1e-6f;
 
-/// Share of a circle around a direction above the horizon, which has these sine and cosine of its
-/// height; the circle's angle likewise.
-double share_above(const SineCosine& height, const SineCosine& angle) {
-    constexpr int kAround = 64;
-    int above = 0;
-    for (int i = 0; i < kAround; ++i) {
-        const double along = sincos_deg(180.0 * (i + 0.5) / kAround).cosine;
-        above += height.sine * angle.cosine + height.cosine * angle.sine * along > 0;
+constexpr int kRings = 64, kAround = 64;
+
+/// Shares of circles around a direction above the horizon, which has these sine and cosine of its
+/// height; the circles' angles likewise. `along`: cosines around them.
+void set_shares(const SineCosine& height, const SineCosine (&angle)[kRings],
+                const double (&along)[kAround], double (&out)[kRings]) {
+    for (int r = 0; r < kRings; ++r) {
+        int above = 0;
+        for (const double cosine : along)
+            above += height.sine * angle[r].cosine + height.cosine * angle[r].sine * cosine > 0;
+        out[r] = double(above) / kAround;
     }
-    return double(above) / kAround;
 }
 
 /// OrdinateNodes::horizon of all media, by their shares within the peak.
 void set_horizon(const Medium& medium, OrdinateNodes& nodes) {
-    constexpr int kRings = 64;
+    double along[kAround], width[kRings], turn[kRings];
+    SineCosine angle[kRings];
+    for (int i = 0; i < kAround; ++i) along[i] = sincos_deg(180.0 * (i + 0.5) / kAround).cosine;
+    for (int r = 0; r < kRings; ++r) {
+        // Rings are narrow near the direction itself, where most turns end.
+        const double from = double(r) / kRings, to = double(r + 1) / kRings;
+        turn[r] = 0.5 * kOrdinatePeakDeg * (from * from + to * to);
+        angle[r] = sincos_deg(turn[r]);
+        width[r] = to * to - from * from;
+    }
     for (int h = 0; h < kHorizon; ++h) {
         const double sine = sincos_deg(kOrdinatePeakDeg).sine * h / (kHorizon - 1);
-        const SineCosine height{sine, __builtin_sqrt(1 - sine * sine)};
-        double above = 0, all = 0;
+        double shares[kRings], above = 0, all = 0;
+        set_shares({sine, __builtin_sqrt(1 - sine * sine)}, angle, along, shares);
         for (int i = 0; i < medium.count; ++i)
             for (int r = 0; r < kRings; ++r) {
-                // Rings are narrow near the direction itself, where most turns end.
-                const double from = double(r) / kRings, to = double(r + 1) / kRings;
-                const double deg = 0.5 * kOrdinatePeakDeg * (from * from + to * to);
-                const SineCosine angle = sincos_deg(deg);
-                const double light =
-                    double(phase_density(medium.optics[std::size_t(i)].phase, turn_of_deg(deg))) *
-                    angle.sine * (to * to - from * from) * double(nodes.peak.shares[i]);
+                const PhaseParams& phase = medium.optics[std::size_t(i)].phase;
+                const double light = double(phase_density(phase, turn_of_deg(turn[r]))) *
+                                     angle[r].sine * width[r] * double(nodes.peak.shares[i]);
                 all += light;
-                above += light * share_above(height, angle);
+                above += light * shares[r];
             }
         nodes.horizon[h] = all > 0 ? float(above / all) : 1.0f;
     }
@@ -88,6 +95,8 @@ Status prepare_optics(const Context& context, const Medium& medium, bool points,
                                                medium.channels > 1 ? c : 0, out.peak.shares[i]);
     set_horizon(medium, out);
     out.sets.clear();
+    // Light on the ground is of another medium.
+    out.ground.known.fill(false);
     return Status::ok();
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "src/picture/ordinates/ordinate_solve.h"
+#include "src/picture/ordinates/ordinate_ground.h"
 
 namespace pileus {
 
@@ -18,6 +18,16 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
     out.larger_filled = known ? made.half.nodes.filled.size() : out.larger;
     out.media = medium.count;
     out.channels = medium.channels;
+    return out;
+}
+
+OrdinateSizes lit_ordinate_sizes(const Medium& medium, const Lighting& lighting,
+                                 const OrdinateNodes& made) {
+    OrdinateSizes out = ordinate_sizes(medium, made);
+    out.sets = std::uint64_t(ordinate_sets(medium, lighting, true));
+    out.together = true;
+    out.own = !lighting.lamps.empty() || emits(medium);
+    if (lighting.ground) out.ground = max_ground_cells(medium);
     return out;
 }
 

@@ -28,6 +28,10 @@ struct OrdinateSizes {
 /// Those of nodes, or where there are none yet the most that any phase function brings.
 OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made);
 
+/// The same with sets and the ground of a light; they are shown together.
+OrdinateSizes lit_ordinate_sizes(const Medium& medium, const Lighting& lighting,
+                                 const OrdinateNodes& made);
+
 /// Those of a sky in place.
 OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky);
 

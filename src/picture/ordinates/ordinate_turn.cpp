@@ -196,10 +196,10 @@ Status turn_ordinates(const Context& context, const Medium& medium, const Camera
 }
 
 Status turn_light(const Context& context, const Medium& medium, const CameraParams& camera,
-                  OrdinateNodes& nodes, Buffer<float>& light) {
+                  OrdinateNodes& nodes) {
     choose_shown(medium, true, nodes);
     const std::size_t count = std::size_t(node_count(nodes.grid));
-    PILEUS_TRY(hold(arrays::ordinate_light(count, nodes.shown.size(), 1), light));
+    PILEUS_TRY(hold(arrays::ordinate_light(count, nodes.shown.size(), 1), nodes.light));
     OrdinateOptics whole;
     for (int l = 1; l < 4; ++l) whole.moment[l] = phase_moment(medium.optics[0].phase, l);
     Buffer<float> own, sum;
@@ -208,7 +208,8 @@ Status turn_light(const Context& context, const Medium& medium, const CameraPara
         const float* from = nullptr;
         PILEUS_TRY(moments_of(context, nodes, nodes.shown[s], sum, from));
         turn_solution(context, nodes, camera, from, whole, own.data());
-        spread_light(context, nodes, medium.grid.periodic, own.data(), light.data() + s * count);
+        spread_light(context, nodes, medium.grid.periodic, own.data(),
+                     nodes.light.data() + s * count);
     }
     return Status::ok();
 }

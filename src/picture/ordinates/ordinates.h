@@ -91,7 +91,6 @@ struct OrdinateGround {
     NodeGrid map{};          ///< cells; size 0: no ground
     float origin[2]{};       ///< m, box-local
     double z = 0;            ///< m, box-local
-    bool whole = false;      ///< one period: it has no rim
     Buffer<float> light;     ///< [set][cell]: irradiance over pi by a set of colour 1; may be < 0
     Buffer<float> radiance;  ///< [3][cell]: of the ground
     Buffer<float> into;      ///< [2][cell]: share of what it sends up that enters the box: from
@@ -316,10 +315,10 @@ bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGr
 /// Every set by itself.
 void show_each(OrdinateNodes& nodes);
 
-/// What one medium's whole phase function, without its albedo, scatters of all light but the first
-/// of the sun and lamps towards a camera, by [shown][node]. kLimit: out of memory.
+/// nodes.light, of what one medium's whole phase function, without its albedo, scatters of all
+/// light but the first of the sun and lamps towards a camera. kLimit: out of memory.
 Status turn_light(const Context& context, const Medium& medium, const CameraParams& camera,
-                  OrdinateNodes& nodes, Buffer<float>& light);
+                  OrdinateNodes& nodes);
 
 /// Light as the march of a camera reads it; `together`: no more than kMaxShown. kLimit: out of
 /// memory.

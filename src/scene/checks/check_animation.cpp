@@ -4,6 +4,7 @@
 // docs/animation.md
 #include <algorithm>
 
+#include "src/base/number_text.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/frame_fault.h"

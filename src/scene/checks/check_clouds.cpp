@@ -4,6 +4,7 @@
 // docs/clouds.md
 #include <algorithm>
 
+#include "src/base/number_text.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 

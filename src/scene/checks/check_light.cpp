@@ -2,6 +2,7 @@
 // Laws between the keys of lights besides sun and sky, and which methods know them.
 // in: keys that passed their own checks -> out: faults.
 // docs/scene.md; docs/lights.md.
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/method_column.h"

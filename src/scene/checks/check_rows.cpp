@@ -2,6 +2,7 @@
 // Checks lists of tables: the rows of a transfer function, the keys of an animation, clouds.
 // in: a list of tables -> out: true, or faults that say what is allowed.
 // docs/scene.md, "A transfer function"; docs/animation.md
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 
 namespace pileus {

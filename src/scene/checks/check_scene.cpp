@@ -4,6 +4,7 @@
 // docs/scene.md.
 #include <glm/geometric.hpp>
 
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/method_column.h"

@@ -4,6 +4,7 @@
 // docs/skies.md, "Keys" and "Kinds of clouds".
 #include <cmath>
 
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/method_column.h"
 

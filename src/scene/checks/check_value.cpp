@@ -2,6 +2,7 @@
 // Checks the type, size and range of one value.
 // in: a row of the key table and a node -> out: true, or a fault that says what is allowed.
 // docs/scene.md, section Messages.
+#include "src/base/number_text.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/rows/density_row.h"
 

@@ -2,6 +2,7 @@
 // Rows in words: what they allow; values of fields.
 // in: rows -> out: texts for messages, nodes.
 // docs/scene.md.
+#include "src/base/number_text.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/rows/density_row.h"
 

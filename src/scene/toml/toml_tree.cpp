@@ -24,6 +24,7 @@
 
 #include <charconv>
 
+#include "src/base/number_text.h"
 #include "src/base/printable.h"
 #include "src/base/single.h"
 
@@ -111,12 +112,6 @@ void put_at(Node& node, const Place& place) {
 double number_of(const Node& node) {
     return node.kind == NodeKind::kInteger ? static_cast<double>(node.integer)
                                            : single_or_0(node.number);
-}
-
-std::string number_text(double value) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value);
-    return std::string(digits, end.ptr);
 }
 
 std::string quote_text(std::string_view text) {

@@ -47,9 +47,6 @@ void put_at(Node& node, const Place& place);
 /// The number in a kNumber or kInteger node, as it is used: 0 where single precision has no other.
 double number_of(const Node& node);
 
-/// Shortest text that reads back as the same number, the same in every locale.
-std::string number_text(double value);
-
 /// A value as one short printable line for messages: at most about 60 bytes, no control characters.
 std::string value_text(const Node& node);
 

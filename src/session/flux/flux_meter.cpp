@@ -4,6 +4,7 @@
 // docs/flux.md
 #include "src/session/flux/flux_meter.h"
 
+#include "src/base/number_text.h"
 #include "src/methods/path/film_parts.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"

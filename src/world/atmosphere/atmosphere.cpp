@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/base/number_text.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "src/base/number_text.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"

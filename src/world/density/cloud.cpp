@@ -3,6 +3,7 @@
 // in: settings -> out: nx*ny*nz floats in [0, 1].
 #include "src/world/density/cloud.h"
 
+#include "src/base/number_text.h"
 #include "src/scene/media/cloud_types.h"
 #include "src/scene/rows/density_row.h"
 
@@ -71,9 +72,9 @@ Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume&
     CloudPlace place;
     PILEUS_TRY(place_cloud(medium, heap, place));
     if (!fits(place))
-        return Status::bad_input("cloud.height_m: " + std::to_string(place.cloud.height_m) +
+        return Status::bad_input("cloud.height_m: " + number_text(place.cloud.height_m, 6) +
                                  " does not fit bounds_m, allowed: at most " +
-                                 std::to_string(place.allowed_m));
+                                 number_text(place.allowed_m, 6));
     // The box may have changed the height.
     place.cloud.entrainment_per_km = cloud_entrainment_per_km(medium.cloud, place.cloud.height_m);
     std::uint64_t cells = 1;

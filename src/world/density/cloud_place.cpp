@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/number_text.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/media/cloud_types.h"

@@ -8,6 +8,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/isa/kernels.h"
 #include "platform/threads.h"
+#include "src/base/number_text.h"
 #include "src/base/random_streams.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
@@ -29,7 +30,7 @@ Status check(const CumulusSettings& s) {
         const double share = e / s.extent_m[2];
         if (!(e > 0 && share >= 1e-3 && share <= 1e3))
             return Status::bad_input("bounds_m: the box's width over its height is " +
-                                     std::to_string(share) +
+                                     number_text(share, 6) +
                                      ", allowed 0.001..1000 for procedural:cumulus");
     }
     return Status::ok();

@@ -4,6 +4,7 @@
 // docs/formats.md "Sky maps in".
 #include "src/world/light/sky_map.h"
 
+#include "src/base/number_text.h"
 #include "src/io/images/image_file.h"
 #include "src/scene/toml/toml_tree.h"
 

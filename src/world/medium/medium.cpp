@@ -8,6 +8,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/file.h"
+#include "src/base/number_text.h"
 #include "src/base/single.h"
 #include "src/io/volumes/particle_volume.h"
 #include "src/io/volumes/volume_file.h"

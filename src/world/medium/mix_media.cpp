@@ -6,6 +6,7 @@
 
 #include <charconv>
 
+#include "src/base/number_text.h"
 #include "src/base/powers.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/toml/toml_tree.h"
@@ -73,11 +74,7 @@ void join_media(std::vector<Medium>& media, const MixBox& box, Medium& out) {
 }
 
 /// Four digits are enough to tell.
-std::string short_number(double value) {
-    char text[32];
-    return {text,
-            std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr};
-}
+std::string short_number(double value) { return number_text(value, 4); }
 
 std::string told_voxels(const MixBox& box) {
     std::string size, edge;

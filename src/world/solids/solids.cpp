@@ -7,6 +7,7 @@
 
 #include "src/base/angles.h"
 #include "src/base/file.h"
+#include "src/base/number_text.h"
 #include "src/io/meshes/mesh_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"

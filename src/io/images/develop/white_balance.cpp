@@ -4,53 +4,21 @@
 // J. Korean Phys. Soc. 41; CIE 15:2004 (daylight); Lam 1985 (Bradford).
 #include "src/io/images/develop/white_balance.h"
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
 namespace pileus {
 namespace {
 
-using Triple = std::array<double, 3>;
-
-ColorMatrix product(const ColorMatrix& a, const ColorMatrix& b) {
-    ColorMatrix out{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-    return out;
-}
-
-Triple product(const ColorMatrix& a, const Triple& v) {
-    Triple out{};
-    for (std::size_t i = 0; i < 3; ++i) out[i] = a[i][0] * v[0] + a[i][1] * v[1] + a[i][2] * v[2];
-    return out;
-}
-
-ColorMatrix inverse(const ColorMatrix& m) {
-    ColorMatrix out{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            out[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
-        }
-    const double determinant = m[0][0] * out[0][0] + m[0][1] * out[1][0] + m[0][2] * out[2][0];
-    for (Triple& row : out)
-        for (double& v : row) v /= determinant;
-    return out;
-}
-
 /// X Y Z of a colour of luminance 1.
-Triple tristimulus(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
+glm::dvec3 tristimulus(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
 
 /// Columns: X Y Z of the primaries, scaled so that their sum is D65.
-ColorMatrix srgb_to_xyz() {
-    const Triple white = tristimulus(0.3127, 0.3290);
-    const Triple primaries[3] = {tristimulus(0.64, 0.33), tristimulus(0.30, 0.60),
-                                 tristimulus(0.15, 0.06)};
-    ColorMatrix columns{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) columns[i][j] = primaries[j][i];
-    const Triple share = product(inverse(columns), white);
-    for (Triple& row : columns)
-        for (std::size_t j = 0; j < 3; ++j) row[j] *= share[j];
-    return columns;
+glm::dmat3 srgb_to_xyz() {
+    const glm::dmat3 primaries(tristimulus(0.64, 0.33), tristimulus(0.30, 0.60),
+                               tristimulus(0.15, 0.06));
+    const glm::dvec3 share = glm::inverse(primaries) * tristimulus(0.3127, 0.3290);
+    return {primaries[0] * share.x, primaries[1] * share.y, primaries[2] * share.z};
 }
 
 std::array<double, 2> black_body_place(double k) {
@@ -82,16 +50,18 @@ std::array<double, 2> white_place(double kelvin) {
 }
 
 ColorMatrix white_matrix(double kelvin) {
-    const ColorMatrix cones{
-        {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
+    const glm::dmat3 cones(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
+                           1.0296);
     const std::array<double, 2> place = white_place(kelvin);
-    const Triple from = product(cones, tristimulus(place[0], place[1]));
-    const Triple to = product(cones, tristimulus(0.3127, 0.3290));
-    const ColorMatrix into = product(cones, srgb_to_xyz());
-    ColorMatrix scaled = into;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (double& v : scaled[i]) v *= to[i] / from[i];
-    return product(inverse(into), scaled);
+    const glm::dvec3 from = cones * tristimulus(place[0], place[1]),
+                     to = cones * tristimulus(0.3127, 0.3290), gain = to / from;
+    const glm::dmat3 into = cones * srgb_to_xyz(),
+                     scaled(into[0] * gain, into[1] * gain, into[2] * gain),
+                     all = glm::inverse(into) * scaled;
+    ColorMatrix rows{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) rows[std::size_t(i)][std::size_t(j)] = all[j][i];
+    return rows;
 }
 
 }  // namespace pileus

@@ -10,14 +10,14 @@ namespace pileus {
 
 using ColorMatrix = std::array<std::array<double, 3>, 3>;
 
-constexpr double kLeastWhite = 2000, kMostWhite = 25000;  // K
+constexpr double kMinWhite = 2000, kMaxWhite = 25000;  // K
 
 /// CIE 1931 x and y of light of this temperature: black bodies up to 4000 K (Kang et al. 2002),
 /// daylight from 5000 K on (CIE 15), between them mixed by the reciprocal of the temperature.
 std::array<double, 2> white_place(double kelvin);
 
 /// Bradford's adaptation (Lam 1985) from that white to D65, for linear sRGB; luminance of the white
-/// stays. `kelvin` within [kLeastWhite, kMostWhite].
+/// stays. `kelvin` within [kMinWhite, kMaxWhite].
 ColorMatrix white_matrix(double kelvin);
 
 }  // namespace pileus

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "src/base/number_text.h"
 #include "src/io/volumes/vdb/vdb_values.h"
 #include "src/io/volumes/volume_file.h"
 

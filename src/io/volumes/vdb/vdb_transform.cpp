@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/number_text.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {

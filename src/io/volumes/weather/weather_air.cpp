@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "src/base/number_text.h"
 #include "src/io/volumes/weather/weather_levels.h"
 #include "src/scene/toml/toml_tree.h"
 

@@ -4,6 +4,7 @@
 // docs/weather.md, "From water to extinction"; Fu 1996 for D_ge.
 #include <limits>
 
+#include "src/base/number_text.h"
 #include "src/io/volumes/weather/weather_air.h"
 #include "src/io/volumes/weather/weather_grid.h"
 #include "src/io/volumes/weather/weather_levels.h"

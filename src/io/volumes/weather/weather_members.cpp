@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "src/base/number_text.h"
 #include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_axes.h"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "platform/threads.h"
+#include "src/base/number_text.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// See number_text.h.
+#include "src/base/number_text.h"
+
+#include <charconv>
+
+namespace pileus {
+namespace {
+
+/// More than any number's digits.
+constexpr std::size_t kMostDigits = 40;
+
+}  // namespace
+
+std::string number_text(double value) {
+    char text[kMostDigits];
+    return std::string(text, std::to_chars(text, text + kMostDigits, value).ptr);
+}
+
+std::string number_text(float value) {
+    char text[kMostDigits];
+    return std::string(text, std::to_chars(text, text + kMostDigits, value).ptr);
+}
+
+std::string number_text(double value, int digits) {
+    char text[kMostDigits];
+    const auto end =
+        std::to_chars(text, text + kMostDigits, value, std::chars_format::general, digits);
+    return std::string(text, end.ptr);
+}
+
+}  // namespace pileus
