@@ -293,8 +293,8 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
     // The media's own light is neither the sun's nor scattered once.
     const bool glows = emits(medium) && lit.lighting == &state.lights.lighting;
     if (lit.lighting->lamps.empty() && !glows) return Status::ok();
-    PILEUS_TRY(
-        make_lamp_nodes(context, medium, state.majorants, *lit.lighting, state.picture.lamps));
+    PILEUS_TRY(make_lamp_nodes(context, medium, state.majorants, *lit.lighting, false,
+                               state.picture.lamps));
     LampMarchParams k = lamp_march_params(medium, state.majorants, *lit.lighting, lit.camera,
                                           state.picture.lamps, kCut);
     k.emits = glows ? 1 : 0;

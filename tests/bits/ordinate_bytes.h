@@ -30,6 +30,7 @@ inline void add_ordinates(const OrdinateNodes& ordinates,
                                              ordinates.ground.radiance.bytes() +
                                              ordinates.ground.into.bytes();
     held["ordinates: places of nodes"] = ordinates.filled.bytes();
+    held["ordinates: rim of nodes"] = ordinates.rim.bytes();
     held["ordinates: parts of the media"] = ordinates.parts.bytes();
     held["ordinates: parts of the sun"] = ordinates.sunward.bytes();
     held["ordinates: shadow of solids"] = ordinates.seen.bytes();

@@ -111,3 +111,32 @@ TEST_CASE("coloured clouds colour the ground below them") {
     for (const char* channel : {"R", "G", "B"})
         CHECK(over_path(kind, channel) == doctest::Approx(1).epsilon(0.06));
 }
+
+TEST_CASE("a lamp's light on the ground lights the cloud above it") {
+    const auto lit = [](std::vector<std::string> set) {
+        for (const char* line :
+             {"camera.position_m=[420,-60,40]", "camera.target_m=[0,0,650]", "sun.irradiance=0",
+              "sky.radiance=0", "ground.albedo=0.8", "path.samples_per_pixel=8192"})
+            set.push_back(line);
+        return over_path(set, "cloud.R");
+    };
+    const std::string layers = "output.layers=[\"cloud\"]";
+    // A street lamp, one as high as a hill, a spot that shines down and one aslant.
+    for (const char* lamp :
+         {"light=[{type=\"point\",position_m=[50,20,30],intensity=1e5}]",
+          "light=[{type=\"point\",position_m=[-100,60,150],intensity=1e5}]",
+          "light=[{type=\"spot\",position_m=[0,100,200],direction=[0,0,-1],cone_deg=60,"
+          "penumbra_deg=10,intensity=1e5}]",
+          "light=[{type=\"spot\",position_m=[-200,0,100],direction=[2,0,-1],cone_deg=20,"
+          "penumbra_deg=10,intensity=1e5}]"}) {
+        CAPTURE(std::string(lamp));
+        const double ratio = lit({lamp, layers});
+        CHECK(ratio > 0.9);
+        CHECK(ratio < 1.1);
+    }
+    // Where fog takes its light on the way nothing comes back in one piece.
+    const double fog =
+        lit({"light=[{type=\"point\",position_m=[50,20,650],intensity=1e5}]", layers});
+    CHECK(fog > 0.85);
+    CHECK(fog < 1.15);
+}

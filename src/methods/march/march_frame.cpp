@@ -24,7 +24,8 @@ Status add_lamps(const Context& context, const FrameView& view, MarchState& stat
     if ((view.lighting.lamps.empty() && !emits(medium)) || state.choice.settings.steps == 0)
         return Status::ok();
     LampNodes& lamps = state.light.lamps;
-    PILEUS_TRY(make_lamp_nodes(context, medium, state.media.majorants, view.lighting, lamps));
+    PILEUS_TRY(make_lamp_nodes(context, medium, state.media.majorants, view.lighting,
+                               has_lamp_spots(view, state.choice), lamps));
     return add_lamp_light(context, medium, march_lamps(view, state), lamps, state.picture.planes, 0,
                           lamp_tables(state));
 }

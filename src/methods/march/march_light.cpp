@@ -32,8 +32,10 @@ Status light_nodes(const Context& context, const FrameView& view, MarchState& st
         const MediumView read = state.choice.levels > 0
                                     ? MediumView{}
                                     : make_medium_view(view.world.medium, media.majorants);
-        return follow_sun_depth(context, medium, majorants, read, march_turn(view, state),
-                                light.slices, light.nodes);
+        return follow_sun_depth(
+            context, medium, majorants, read,
+            media.wide_sun ? wide_sun_depth_nodes(medium) : sun_depth_nodes(medium),
+            march_turn(view, state), light.slices, light.nodes);
     }
     if (!light.nodes.optical_depth.empty() && light.nodes_to_sun == to_sun) return Status::ok();
     PILEUS_TRY(
@@ -121,7 +123,7 @@ Status light_march(const Context& context, const FrameView& view, double slack_d
     if (!state.choice.settings.ordinates) return Status::ok();
     if (!view.lighting.lamps.empty() && view.world.medium.sigma > 0)
         PILEUS_TRY(make_lamp_nodes(context, view.world.medium, state.media.majorants, view.lighting,
-                                   state.light.lamps));
+                                   has_lamp_spots(view, state.choice), state.light.lamps));
     return light_ordinates(context, view, slack_deg, state);
 }
 

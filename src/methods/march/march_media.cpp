@@ -44,6 +44,24 @@ const Medium& marched_medium(const FrameView& view, const MarchState& state) {
     return capped.volume.density.empty() ? view.world.medium : capped;
 }
 
+bool has_wide_sun(const Medium& medium) {
+    if (!has_thin_voxels(medium)) return false;
+    const Grid& grid = medium.grid;
+    const float* density = medium.volume.density.data();
+    const auto holds = [&](int x, int y, int z) { return density[voxel_index(grid, x, y, z)] > 0; };
+    const int last[3] = {grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1};
+    for (int y = 0; y <= last[1]; ++y)
+        for (int x = 0; x <= last[0]; ++x)
+            if (holds(x, y, 0) || holds(x, y, last[2])) return false;
+    for (int z = 0; z <= last[2] && !grid.periodic; ++z) {
+        for (int x = 0; x <= last[0]; ++x)
+            if (holds(x, 0, z) || holds(x, last[1], z)) return false;
+        for (int y = 0; y <= last[1]; ++y)
+            if (holds(0, y, z) || holds(last[0], y, z)) return false;
+    }
+    return true;
+}
+
 Status cap_medium(const FrameView& view, MarchState& state) {
     const Medium& medium = view.world.medium;
     if (!caps_extinction(view, state)) return Status::ok();

@@ -35,6 +35,8 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     media.outlined_only = false;
     PILEUS_TRY(cap_medium(view, state_));
     const RaymarchSettings& settings = state_.choice.settings;
+    media.wide_sun = settings.ordinates && settings.light != RaymarchLightKind::kBuffer &&
+                     !view.world.direct_sky && has_wide_sun(view.world.medium);
     state_.light.sky_made = false;
     const bool nodes = settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0;
     if (nodes && view.world.direct_sky)
@@ -53,7 +55,9 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
     const MarchChoice& choice = state_.choice;
     MarchLight& light = state_.light;
     PILEUS_TRY(reserve_depths(size, solid, state_.picture.planes));
-    PILEUS_TRY(reserve_lamp_nodes(view.world.medium, view.scene.lights.size(), light.lamps));
+    PILEUS_TRY(reserve_lamp_nodes(view.world.medium,
+                                  view.scene.lights.size() * (choice.settings.ordinates ? 2 : 1),
+                                  light.lamps));
     light.slices.reserve();
     light.ground_shadow.slices.reserve();
     if (choice.look) return Status::ok();

@@ -51,18 +51,10 @@ Status choose_scattering(const FrameView& view, MarchChoice& choice) {
 
 namespace {
 
-/// Between voxels that are thicker than this the optical depth to the sun is not linear: what it is
-/// at the places that are lit is then found by rays.
-constexpr double kThickVoxel = 1;
-
-/// Iterations of a picture whose light follows.
-constexpr int kFollowed = 3;
-
+/// Of thick voxels depths at the places that are lit are found by rays.
 const SunDepth* sun_of_nodes(const Medium& medium, const MarchState& state) {
-    double edge = 0;
-    for (float cell : medium.grid.cell_m) edge = std::max(edge, double(cell));
-    const bool thin = max_extinction(medium) * edge < kThickVoxel;
-    return thin && !state.choice.march_light ? &state.light.nodes : nullptr;
+    const bool read = has_thin_voxels(medium) && !state.choice.march_light;
+    return read ? &state.light.nodes : nullptr;
 }
 
 OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& state) {
@@ -71,6 +63,7 @@ OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& 
     ask.lamps = &state.light.lamps;
     ask.first_lamp = own.first_lamp;
     ask.lamp_count = own.lamps;
+    ask.beside = own.beside;
     ask.emission = own.emission;
     ask.ground = true;
     return ask;
@@ -100,12 +93,25 @@ Status light_sky_levels(const Context& context, const FrameView& view, const Lig
 
 }  // namespace
 
+bool has_thin_voxels(const Medium& medium) {
+    constexpr double kThickVoxel = 1;
+    double edge = 0;
+    for (float cell : medium.grid.cell_m) edge = std::max(edge, double(cell));
+    return max_extinction(medium) * edge < kThickVoxel;
+}
+
 bool may_have_lamps(const FrameView& view, const MarchChoice& choice) {
     return kLights && (choice.hosted || !view.scene.lights.empty());
 }
 
-OwnLight own_light_of(const FrameView& view) {
-    return {0, view.lighting.lamps.size(), emits(view.world.medium)};
+bool has_lamp_spots(const FrameView& view, const MarchChoice& choice) {
+    return choice.settings.ordinates && !view.world.direct_sky;
+}
+
+OwnLight own_light_of(const FrameView& view, const MarchState& state) {
+    // Nodes have the lamps' spots on the ground, too; without a lamp they are of another light.
+    const std::size_t lamps = view.lighting.lamps.empty() ? 0 : state.light.lamps.lamps.size();
+    return {0, lamps, emits(view.world.medium), -1};
 }
 
 Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
@@ -131,7 +137,7 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
         return light_sky_levels(context, view, view.lighting, refresh, state);
     if (light.ordinates.density.empty()) return Status::ok();
     const CameraParams& camera = state.picture.camera;
-    OrdinateAsk ask = ask_of(medium, own_light_of(view), state);
+    OrdinateAsk ask = ask_of(medium, own_light_of(view, state), state);
     // set_view tells of other lights than the sun's direction.
     bool solve = !light.sky_made || light.sky_to_sun != view.lighting.to_sun;
     if (solve) {
@@ -141,7 +147,7 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
         light.ordinates_followed = ++light.ordinates_still < refresh - 1;
         solve = !light.ordinates_followed || unsolved(light.ordinates);
     }
-    if (light.ordinates_followed) ask.iterations = kFollowed;
+    if (light.ordinates_followed) ask.iterations = kFollowedIterations;
     const bool seen = !solve && same_way(medium, slack_deg, light.sky_camera, camera);
     if (seen) return Status::ok();
     light.sky_made = false;

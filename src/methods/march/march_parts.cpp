@@ -75,7 +75,7 @@ Status show_under(const Context& context, const FrameView& view, const RaymarchI
     in.settings = &settings;
     PILEUS_TRY(light_nodes_by(context, view, light, own, state));
     PILEUS_TRY(show_part(context, view, in, background ? &light : nullptr, state, part));
-    return light_nodes_by(context, view, view.lighting, own_light_of(view), state);
+    return light_nodes_by(context, view, view.lighting, own_light_of(view, state), state);
 }
 
 Status show_sun(const Context& context, const FrameView& view, const RaymarchInput& whole,
@@ -94,11 +94,12 @@ Status show_emission(const Context& context, const FrameView& view, const Raymar
     RaymarchInput in = whole;
     in.lighting = &dark;
     in.sky = nullptr;
-    PILEUS_TRY(light_nodes_by_ordinates(context, view, dark, {0, 0, true}, state));
+    PILEUS_TRY(light_nodes_by_ordinates(context, view, dark, {0, 0, true, -1}, state));
     const bool lights_ground = whole.ordinates != nullptr;
     PILEUS_TRY(show_part(context, view, in, lights_ground ? &dark : nullptr, state, part));
     if (lights_ground) lay_over(part);
-    PILEUS_TRY(light_nodes_by_ordinates(context, view, view.lighting, own_light_of(view), state));
+    PILEUS_TRY(
+        light_nodes_by_ordinates(context, view, view.lighting, own_light_of(view, state), state));
     if (march_emits(view, state) && state.choice.settings.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
         k.lamps = k.ground = 0;
@@ -118,8 +119,8 @@ Status show_ground_of_lamp(const Context& context, const FrameView& view,
     ground.sunlit = false;
     ground.sun_irradiance = ground.ground_sun = {};
     ground.ground_lamps = radiance;
-    return show_under(context, view, whole, ground, {lamp, 1, false}, whole.ordinates != nullptr,
-                      state, part);
+    return show_under(context, view, whole, ground, {lamp, 1, false, state.light.lamps.spot[lamp]},
+                      whole.ordinates != nullptr, state, part);
 }
 
 Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,
@@ -142,8 +143,13 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
         // The medium's light on the ground is there already.
         if (!lit || whole.ordinates == nullptr)
             std::fill_n(part.background.data(), part.background.size(), 0.0f);
-        PILEUS_TRY(add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
-                                  i, lamp_tables(state)));
+        const auto add = [&](std::size_t lamp) {
+            return add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
+                                  lamp, lamp_tables(state));
+        };
+        PILEUS_TRY(add(i));
+        const std::int32_t spot = state.light.lamps.spot[i];
+        if (spot >= 0) PILEUS_TRY(add(std::size_t(spot)));
         lay_over(part);
         std::copy_n(part.colour.data(), 3 * pixels, planes.lamps.data() + 3 * pixels * i);
     }
@@ -171,6 +177,7 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
     if (!view.lighting.lamps.empty() && settings.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
         k.emits = k.ground = 0;
+        k.lamps = std::int32_t(view.lighting.lamps.size());
         k.octaves.count = 1;
         k.ordinates = k.beam_sets = 0;
         k.forward = 0;

@@ -204,12 +204,14 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     add_majorant_rows(grid, state.media.outlined_only ? 1 : state.media.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
     if (!state.choice.march_light && lighting.sunlit)
-        add(t, arrays::sun_depth(sun_grid(view, state), last));
+        add(t, arrays::sun_depth(state.media.wide_sun ? node_count(wide_sun_depth_nodes(medium))
+                                                      : voxel_count(sun_grid(view, state)),
+                                 last));
     if (state.choice.sky_nodes && lighting.sunlit)
         add(t, arrays::sky_light_nodes(
                    sky_light_levels(view.world.layer.params, sky_light_bits(state.choice)),
                    sky_light_bits(state.choice), last));
-    add(t, arrays::lamp_depths(lamp_numbers(medium, lighting)));
+    add(t, arrays::lamp_depths(lamp_numbers(medium, lighting, has_lamp_spots(view, state.choice))));
     if (caps_extinction(view, state)) add(t, arrays::capped_density(grid));
     if (has_sun_grid(view, state)) {
         add(t, arrays::lit_density(sun_grid(view, state)));

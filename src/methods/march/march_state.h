@@ -35,6 +35,7 @@ struct MarchChoice {
 /// What no frame changes.
 struct MarchMedia {
     bool outlined_only = true;  ///< sizes are known, values are not
+    bool wide_sun = false;      ///< nodes of the sun's depth are two voxels apart
     Majorants majorants;
     std::vector<DensityLevel> coarse;  ///< densities of the levels of detail
     Medium capped;  ///< the medium with its extinction cut; unused where that cuts nothing
@@ -119,6 +120,10 @@ Grid sun_grid(const FrameView& view, const MarchState& state);
 /// What is shown and lit: the world's medium, or the capped one.
 const Medium& marched_medium(const FrameView& view, const MarchState& state);
 
+/// Whether nodes two voxels apart tell the optical depth to the sun nearly as well as one a voxel:
+/// within thin voxels it is linear. Not where medium reaches the box's faces, from which half of
+/// the way to the first node has that node's depth.
+bool has_wide_sun(const Medium& medium);
 /// The medium with no extinction above the largest one asked for. kLimit: out of memory.
 Status cap_medium(const FrameView& view, MarchState& state);
 /// Makes the medium of the sun's cells once. kLimit: out of memory.
@@ -130,14 +135,20 @@ Status choose_scattering(const FrameView& view, MarchChoice& choice);
 /// Solves for them where the light has changed. kLimit: out of memory.
 Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
                        MarchState& state);
+/// Whether the optical depth to the sun is nearly linear from voxel to voxel.
+bool has_thin_voxels(const Medium& medium);
 /// Light that begins in the box: of these lamps, of media that shine.
 struct OwnLight {
     std::size_t first_lamp = 0, lamps = 0;
     bool emission = false;
+    int beside = -1;  ///< one more lamp; -1: none
 };
-OwnLight own_light_of(const FrameView& view);
+/// All of it, once the lamps' nodes are made.
+OwnLight own_light_of(const FrameView& view, const MarchState& state);
 /// Whether lamps shine, or a host may set some.
 bool may_have_lamps(const FrameView& view, const MarchChoice& choice);
+/// Whether spots of lamps on the ground light the media.
+bool has_lamp_spots(const FrameView& view, const MarchChoice& choice);
 /// Solves for another light than the view's, whole, and turns it to the picture's camera.
 Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
                            const OwnLight& own, MarchState& state);

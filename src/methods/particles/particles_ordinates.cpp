@@ -11,10 +11,10 @@ namespace pileus {
 Status solve_particles(const Context& context, const FrameView& view, ParticlesState& state) {
     const Medium& medium = view.world.medium;
     LampNodes lamps;
-    PILEUS_TRY(make_lamp_nodes(context, medium, state.majorants, view.lighting, lamps));
+    PILEUS_TRY(make_lamp_nodes(context, medium, state.majorants, view.lighting, true, lamps));
     OrdinateAsk ask;
     ask.lamps = &lamps;
-    ask.lamp_count = view.lighting.lamps.size();
+    ask.lamp_count = lamps.lamps.size();
     ask.emission = emits(medium);
     ask.ground = true;
     return make_ordinates(context, medium, state.majorants, view.lighting, ask, state.ordinates);

@@ -40,20 +40,54 @@ NodeGrid lamp_node_grid(const Medium& medium) {
     return g;
 }
 
-std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting) {
+std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting, bool spots) {
     if (lighting.lamps.empty()) return 0;
-    return bytes_of(node_count(lamp_node_grid(medium)), lighting.lamps.size());
+    std::uint64_t lamps = lighting.lamps.size();
+    for (const LampParams& spot : lighting.lamp_spots) lamps += spots && spot.strength > 0 ? 1 : 0;
+    return bytes_of(node_count(lamp_node_grid(medium)), lamps);
 }
 
+namespace {
+
+/// Calls use(index, lamp) for lamps and, where they are wanted, their spots.
+template <class Use>
+void each_light(const Lighting& lighting, bool spots, const Use& use) {
+    std::size_t n = 0;
+    for (const LampParams& lamp : lighting.lamps) use(n++, lamp);
+    for (const LampParams& spot : lighting.lamp_spots)
+        if (spots && spot.strength > 0) use(n++, spot);
+}
+
+/// Whether nodes are of these lamps already; else lists them, in the memory that there is.
+bool same_lights(const Lighting& lighting, bool spots, LampNodes& out) {
+    std::size_t count = 0;
+    bool same = true;
+    each_light(lighting, spots, [&](std::size_t i, const LampParams& lamp) {
+        same = same && i < out.lamps.size() && std::memcmp(&out.lamps[i], &lamp, sizeof lamp) == 0;
+        count = i + 1;
+    });
+    if (same && count == out.lamps.size()) return true;
+    out.lamps.clear();
+    each_light(lighting, spots,
+               [&](std::size_t, const LampParams& lamp) { out.lamps.push_back(lamp); });
+    out.spot.assign(lighting.lamps.size(), -1);
+    auto next = std::int32_t(lighting.lamps.size());
+    for (std::size_t i = 0; i < lighting.lamp_spots.size(); ++i)
+        if (spots && lighting.lamp_spots[i].strength > 0) out.spot[i] = next++;
+    return false;
+}
+
+}  // namespace
+
 Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
-                       const Lighting& lighting, LampNodes& out) {
+                       const Lighting& lighting, bool spots, LampNodes& out) {
     if (!kLights) return Status::ok();
-    if (!out.optical_depth.empty() && same_lamps(out.lamps, lighting.lamps)) return Status::ok();
+    if (same_lights(lighting, spots, out) && !out.optical_depth.empty()) return Status::ok();
     const StageClock clock(context, "lights");
-    out.lamps = lighting.lamps;
     out.grid = lamp_node_grid(medium);
     const std::uint64_t count = out.lamps.size();
-    PILEUS_TRY(allocate(arrays::lamp_depths(lamp_numbers(medium, lighting)), out.optical_depth));
+    PILEUS_TRY(
+        allocate(arrays::lamp_depths(lamp_numbers(medium, lighting, spots)), out.optical_depth));
     const LampMarchParams k = lamp_march_params(medium, majorants, lighting, {}, out, 0);
     LampMarchBuffers b{};
     b.lamps = out.lamps.data();
@@ -72,6 +106,7 @@ Status make_lamp_nodes(const Context& context, const Medium& medium, const Major
 Status reserve_lamp_nodes(const Medium& medium, std::size_t lamps, LampNodes& out) {
     if (!kLights || lamps == 0) return Status::ok();
     out.lamps.reserve(lamps);
+    out.spot.reserve(lamps);
     const Array<float> depths =
         arrays::lamp_depths(bytes_of(node_count(lamp_node_grid(medium)), lamps));
     return out.optical_depth.reserve(depths.count, depths.name);

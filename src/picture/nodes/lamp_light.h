@@ -18,15 +18,16 @@ namespace pileus {
 /// Optical depths from nodes to each lamp, and the lamps that they are of.
 struct LampNodes {
     NodeGrid grid{};
-    Buffer<float> optical_depth;  ///< [lamp][node]
-    std::vector<LampParams> lamps;
+    Buffer<float> optical_depth;     ///< [lamp][node]
+    std::vector<LampParams> lamps;   ///< those of a Lighting, and then their spots on the ground
+    std::vector<std::int32_t> spot;  ///< [lamp]: index of its spot; -1: none
 };
 
 /// Nodes of one lamp: 2^17, and of a medium of many voxels one for each eight, at most 2^20.
 NodeGrid lamp_node_grid(const Medium& medium);
 
-/// Numbers of all lamps' nodes.
-std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting);
+/// Numbers of all lamps' nodes; `spots`: and of their spots on the ground.
+std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting, bool spots = false);
 
 namespace arrays {
 
@@ -37,10 +38,10 @@ inline Array<float> lamp_depths(std::uint64_t numbers) {
 
 }  // namespace arrays
 
-/// Fills `out` where its lamps are not those of `lighting`. kLimit: out of memory. Needs kernels of
-/// the host.
+/// Fills `out` where its lamps are not those of `lighting`, with their spots on the ground where
+/// they are wanted. kLimit: out of memory. Needs kernels of the host.
 Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
-                       const Lighting& lighting, LampNodes& out);
+                       const Lighting& lighting, bool spots, LampNodes& out);
 
 /// Room for so many lamps, which may all shine later on. kLimit: out of memory.
 Status reserve_lamp_nodes(const Medium& medium, std::size_t lamps, LampNodes& out);

@@ -123,7 +123,8 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out) {
     const StageClock clock(context, "shadow");
     out.nodes = sun_depth_nodes(medium);
-    PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
+    PILEUS_TRY(
+        allocate_once(arrays::sun_depth(node_count(out.nodes), Stage::kWrite), out.optical_depth));
     out.swept = false;
     if (kind == SunDepthKind::kSwept)
         PILEUS_TRY(sweep(context, medium, to_sun, out.optical_depth.data(), out.swept));
@@ -131,23 +132,40 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
     return cast_rays(context, medium, majorants, to_sun, out.nodes, out.optical_depth.data());
 }
 
-NodeGrid sun_depth_nodes(const Medium& medium) {
+namespace {
+
+NodeGrid nodes_of(const Medium& medium, const int (&size)[3]) {
     NodeGrid nodes{};
     for (int a = 0; a < 3; ++a) {
-        nodes.size[a] = medium.grid.size[a];
-        nodes.per_metre[a] = float(medium.grid.size[a] / medium.extent_m[a]);
+        nodes.size[a] = size[a];
+        nodes.per_metre[a] = float(size[a] / medium.extent_m[a]);
     }
     return nodes;
 }
 
+}  // namespace
+
+NodeGrid sun_depth_nodes(const Medium& medium) { return nodes_of(medium, medium.grid.size); }
+
+NodeGrid wide_sun_depth_nodes(const Medium& medium) {
+    constexpr int kMinNodes = 8;
+    int size[3];
+    for (int a = 0; a < 3; ++a) {
+        const int voxels = medium.grid.size[a];
+        size[a] = voxels >= 2 * kMinNodes ? (voxels + 1) / 2 : voxels;
+    }
+    return nodes_of(medium, size);
+}
+
 Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
-                        const MediumView& read, const SunTurn& turn, SunSlices& slices,
-                        SunDepth& out) {
+                        const MediumView& read, const NodeGrid& nodes, const SunTurn& turn,
+                        SunSlices& slices, SunDepth& out) {
     const StageClock clock(context, "shadow");
-    out.nodes = sun_depth_nodes(medium);
+    out.nodes = nodes;
     out.swept = false;
     if (out.optical_depth.size() != node_count(out.nodes)) slices.held.clear();
-    PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
+    PILEUS_TRY(
+        allocate_once(arrays::sun_depth(node_count(out.nodes), Stage::kWrite), out.optical_depth));
     const std::vector<int> due = follow_sun(turn, slices);
     if (due.empty()) return Status::ok();
     ShadowParams k{};

@@ -26,9 +26,9 @@ struct SunDepth {
 
 namespace arrays {
 
-/// A node for each voxel; `last` marches.
-inline Array<float> sun_depth(const Grid& grid, Stage last) {
-    return {"sunlight's optical depth on nodes", voxel_count(grid), Stage::kShadow, last};
+/// `last` marches.
+inline Array<float> sun_depth(std::uint64_t nodes, Stage last) {
+    return {"sunlight's optical depth on nodes", nodes, Stage::kShadow, last};
 }
 
 }  // namespace arrays
@@ -39,14 +39,17 @@ inline Array<float> sun_depth(const Grid& grid, Stage last) {
 Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out);
 
-/// The same by rays, while the sun moves: what `slices` do not hold for the frame's sun is made, of
-/// nodes that are read for places in `read` (nodes_in_medium). kLimit: out of memory.
+/// The same by rays at `nodes`, while the sun moves: what `slices` do not hold for the frame's sun
+/// is made, of nodes that are read for places in `read` (nodes_in_medium). kLimit: out of memory.
 Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
-                        const MediumView& read, const SunTurn& turn, SunSlices& slices,
-                        SunDepth& out);
+                        const MediumView& read, const NodeGrid& nodes, const SunTurn& turn,
+                        SunSlices& slices, SunDepth& out);
 
-/// Nodes that such a depth has.
+/// Nodes that such a depth has: one in each voxel.
 NodeGrid sun_depth_nodes(const Medium& medium);
+/// Two voxels apart along axes that keep at least eight: for voxels within which light hardly
+/// changes.
+NodeGrid wide_sun_depth_nodes(const Medium& medium);
 
 /// Compares with rays at about `wanted` nodes. kLimit: out of memory.
 Status sun_depth_difference(const Context& context, const Medium& medium,

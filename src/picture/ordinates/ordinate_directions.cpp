@@ -156,16 +156,18 @@ namespace {
 
 /// Whether all lamps have one colour; theirs, so that its largest part is 1.
 bool one_colour(const OrdinateAsk& ask, Double3& colour) {
-    for (std::size_t i = 0; i < ask.lamp_count; ++i) {
-        const LampParams& lamp = ask.lamps->lamps[ask.first_lamp + i];
-        if (!(lamp.strength > 0)) continue;
+    bool one = true, first = true;
+    each_lamp(ask, [&](std::size_t l) {
+        const LampParams& lamp = ask.lamps->lamps[l];
+        if (!(lamp.strength > 0)) return;
         for (std::size_t c = 0; c < 3; ++c) {
             const double part = double(lamp.light[c]) / double(lamp.strength);
-            if (i > 0 && (part > colour[c] + 1e-6 || part < colour[c] - 1e-6)) return false;
+            one = one && (first || (part <= colour[c] + 1e-6 && part >= colour[c] - 1e-6));
             colour[c] = part;
         }
-    }
-    return !ask.emission;
+        first = false;
+    });
+    return one && !ask.emission;
 }
 
 /// Light that begins at lamps and in media.

@@ -175,7 +175,7 @@ Status solve_half(const Context& context, const Medium& medium, OrdinateNodes& n
         coarser.nodes = ask.coarser.larger;
         for (std::size_t a = 0; a < 2; ++a)
             coarser.first[a] = 0.5 * (ask.coarser.first[a] + 0.5 * ask.coarser.step[a] + 0.5) - 0.5;
-        PILEUS_TRY(light_ring(context, coarser, s, larger, ring, own));
+        PILEUS_TRY(light_ring(context, coarser, s, true, larger, ring, own));
     }
     OrdinateSet set = nodes.sets[s];
     set.solved = false;

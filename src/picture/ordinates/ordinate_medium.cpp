@@ -110,13 +110,9 @@ NodeSamples node_samples(const NodeGrid& grid, const std::array<int, 3>& within)
 namespace {
 
 /// The mean over what it is at the middle.
-float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
-                     float depth) {
+float mean_in_sample(const SampleWay& way, float per_metre, float depth) {
     // At most the way through the middle of the sample's part.
-    float most = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-        most = std::max(most, (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a]);
-    const float half = 0.5f * per_metre / most;
+    const float half = 0.5f * per_metre / way.most;
     if (!(half > 0.01f)) return 1;
     // sinh(x) / x, of which e^-tau at the middle is the mean; not beyond the near face.
     const float x = std::min(half, std::min(20.0f, std::max(depth, 0.01f)));
@@ -124,21 +120,25 @@ float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float pe
 }
 
 /// The largest mean: more light than enters does not end there.
-float max_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre) {
+float max_in_sample(const SampleWay& way, float per_metre) {
     // Volume over what is seen of the part by the light: its mean way through.
-    float across = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-        across += (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a];
-    const float depth = per_metre / across;
+    const float depth = per_metre / way.across;
     return depth > 1e-3f ? one_minus_exp(depth) / depth : 1.0f;
 }
 
 }  // namespace
 
-float light_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
-                      float depth) {
-    return std::min(exp_(-depth) * mean_in_sample(samples, way, per_metre, depth),
-                    max_in_sample(samples, way, per_metre));
+SampleWay::SampleWay(const NodeSamples& samples, const float (&way)[3]) {
+    for (std::size_t a = 0; a < 3; ++a) {
+        const float per_sample = (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a];
+        most = std::max(most, per_sample);
+        across += per_sample;
+    }
+}
+
+float light_in_sample(const SampleWay& way, float per_metre, float depth) {
+    return std::min(exp_(-depth) * mean_in_sample(way, per_metre, depth),
+                    max_in_sample(way, per_metre));
 }
 
 NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
@@ -171,6 +171,7 @@ Status sample_ordinates(const Context& context, const Medium& medium, const Majo
     filled = 0;
     for (std::size_t i = 0; i < out.density.size(); ++i)
         if (out.density[i] > 0) out.filled[filled++] = std::int32_t(i);
+    PILEUS_TRY(find_rim(context, medium.grid.periodic, out));
     return sample_parts(context, medium, majorants, samples, out);
 }
 
@@ -184,10 +185,14 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
     k.nodes = samples.fine;
     for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
     if (sun != nullptr)
-        parallel_each(context.threads, depths.size(), [&](std::size_t i) {
-            const Vec<float> node = node_position(sun->nodes, sample_place(samples, i));
-            depths[i] = interpolate(sun->optical_depth.data(),
-                                    node_corners(node, sun->nodes.size, k.medium.periodic != 0));
+        parallel_each(context.threads, nodes.filled.size(), [&](std::size_t n) {
+            each_sample(nodes.grid, samples, std::size_t(nodes.filled[n]), [&](std::size_t s) {
+                if (!(nodes.samples[s] > 0)) return;
+                const Vec<float> node = node_position(sun->nodes, sample_place(samples, s));
+                depths[s] =
+                    interpolate(sun->optical_depth.data(),
+                                node_corners(node, sun->nodes.size, k.medium.periodic != 0));
+            });
         });
     else
         PILEUS_TRY(run_rows(context, shadow_kernel(*context.kernels, k.medium), k,
@@ -202,16 +207,17 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
                  const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam) {
     const NodeSamples samples = node_samples(nodes.grid, nodes.within);
-    const float to_sun[3] = {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]};
+    const SampleWay way(samples, {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]});
     parallel_each(context.threads, nodes.filled.size(), [&](std::size_t filled) {
         const auto i = std::size_t(nodes.filled[filled]);
         const float rest = ordinate_rest(nodes, nodes.parts, channel, i);
         const float way_rest = ordinate_rest(nodes, nodes.sunward, channel, i);
         float light = 0, mass = 0;
         each_sample(nodes.grid, samples, i, [&](std::size_t s) {
-            const float density = nodes.samples[s], depth = way_rest * depths[s];
+            const float density = nodes.samples[s];
+            if (!(density > 0)) return;
             light +=
-                density * light_in_sample(samples, to_sun, rest * medium.sigma * density, depth);
+                density * light_in_sample(way, rest * medium.sigma * density, way_rest * depths[s]);
             mass += density;
         });
         beam[filled] = mass > 0 ? light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]) : 0.0f;

@@ -53,10 +53,15 @@ inline Vec<float> sample_place(const NodeSamples& samples, std::size_t i) {
             (float(i / (nx * ny)) + 0.5f) / fine.per_metre[2]};
 }
 
-/// Mean of e^-tau over a sample's part of the node, of light that travels along a unit vector, by
-/// what counts of the extinction per metre and of the depth from its middle to the light.
-float light_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
-                      float depth);
+/// Light that travels along a unit vector through samples' parts of nodes: one over its way through
+/// the middle of one, and over its mean way.
+struct SampleWay {
+    float most = 0, across = 0;
+    SampleWay(const NodeSamples& samples, const float (&way)[3]);
+};
+/// Mean of e^-tau over a sample's part of the node, by what counts of the extinction per metre and
+/// of the depth from its middle to the light.
+float light_in_sample(const SampleWay& way, float per_metre, float depth);
 
 /// Densities of nodes, which are means of their samples'.
 void average_samples(const Context& context, OrdinateNodes& nodes);
@@ -65,8 +70,8 @@ void average_samples(const Context& context, OrdinateNodes& nodes);
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                         OrdinateNodes& out);
 
-/// Optical depths towards the sun from all samples; of nodes which media they are of. kLimit: out
-/// of memory.
+/// Optical depths towards the sun from samples that hold medium; of nodes which media they are of.
+/// kLimit: out of memory.
 Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
                   Buffer<float>& depths);

@@ -45,7 +45,7 @@ void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const Lamp
         if (lamp.parallel == 0 && sight.distance < least)
             share *= sight.distance * sight.distance / (least * least);
         const float way[3] = {sight.way.x, sight.way.y, sight.way.z};
-        const float kept = light_in_sample(samples, way, rest * sigma * density, depth);
+        const float kept = light_in_sample(SampleWay(samples, way), rest * sigma * density, depth);
         float harmonic[kOrdinateMoments];
         sh_eval<4>(-way[0], -way[1], -way[2], harmonic);
         const float lit = density * share * light * kept;
@@ -71,12 +71,12 @@ Status own_light(const Context& context, const Medium& medium, const OrdinateNod
         const auto i = std::size_t(nodes.filled[n]);
         const float rest = ordinate_rest(nodes, nodes.parts, set.channel, i);
         float moments[kOrdinateMoments] = {}, kept[4] = {}, emitted = 0, out[kOrdinates];
-        for (std::size_t l = ask.first_lamp; l < ask.first_lamp + ask.lamp_count; ++l) {
+        each_lamp(ask, [&](std::size_t l) {
             const LampParams& lamp = ask.lamps->lamps[l];
             const float light = set.own == kLampStrength ? lamp.strength : lamp.light[channel];
             if (light > 0)
                 add_lamp(nodes, samples, *ask.lamps, l, medium.sigma, rest, light, i, moments);
-        }
+        });
         for (std::size_t m = 0; m < std::size_t(nodes.media); ++m) {
             const float part = nodes.media == 1 ? 1.0f : nodes.parts[m * count + i];
             const OrdinateOptics& optics = nodes.optics[m][set.channel];

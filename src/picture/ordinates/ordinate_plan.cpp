@@ -13,6 +13,7 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
     const bool known = !made.density.empty();
     out.nodes = known ? made.density.size() : max_ordinate_nodes(medium);
     out.filled = known ? made.filled.size() : out.nodes;
+    out.rim = known ? made.rim.size() : out.nodes;
     out.samples = known ? made.samples.size() : max_ordinate_samples(medium);
     out.larger = known ? made.half.nodes.density.size() : out.nodes / 2 + 1;
     out.larger_filled = known ? made.half.nodes.filled.size() : out.larger;
@@ -84,6 +85,7 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, renamed(arrays::ordinate_nodes(s.nodes, Stage::kShadow), "ordinates: numbers at work",
                    Stage::kShadow, Stage::kShadow));
     add(t, several(s.levels, arrays::ordinate_places(s.filled, Stage::kWrite)));
+    add(t, arrays::ordinate_rim(s.rim));
     add(t, renamed(arrays::ordinate_places(s.filled, Stage::kShadow), "ordinates: places at work",
                    Stage::kShadow, Stage::kShadow));
     add(t, arrays::ordinate_seen(s.solids ? s.nodes : 0));

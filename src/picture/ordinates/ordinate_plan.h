@@ -10,7 +10,7 @@
 namespace pileus {
 
 struct OrdinateSizes {
-    std::uint64_t nodes = 0, filled = 0, samples = 0;
+    std::uint64_t nodes = 0, filled = 0, rim = 0, samples = 0;
     std::uint64_t larger = 0, larger_filled = 0;  ///< of nodes of twice the size
     std::uint64_t levels = 1;                     ///< of a sky in place, each with so many nodes
     std::uint64_t ring = 0;                       ///< nodes around one

@@ -57,7 +57,7 @@ private:
 }  // namespace
 
 Status light_ring(const Context& context, const OrdinateCoarser& coarser, std::size_t s,
-                  OrdinateCells& nodes, Buffer<float>& ring, OrdinateSources& from) {
+                  bool begins, OrdinateCells& nodes, Buffer<float>& ring, OrdinateSources& from) {
     const std::size_t of_ring = std::size_t(ring_count(nodes.grid)), filled = nodes.filled.size();
     PILEUS_TRY(allocate_once(arrays::ordinate_ring(of_ring), ring));
     const CoarserLight light(coarser, s);
@@ -75,14 +75,15 @@ Status light_ring(const Context& context, const OrdinateCoarser& coarser, std::s
             ring[j * of_ring + r] = std::max(sum, 0.0f);
         }
     });
+    from.ring = ring.data();
+    from.started = begins;
+    if (!begins) return Status::ok();
     float* start = nodes.solution.data() + s * filled * kOrdinateMoments;
     parallel_each(context.threads, filled, [&](std::size_t n) {
         float moment[kOrdinateMoments];
         read(std::size_t(nodes.filled[n]), moment);
         for (std::size_t m = 0; m < kOrdinateMoments; ++m) start[m * filled + n] = moment[m];
     });
-    from.ring = ring.data();
-    from.started = true;
     return Status::ok();
 }
 

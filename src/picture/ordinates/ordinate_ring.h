@@ -10,6 +10,6 @@ namespace pileus {
 /// Of set `s`: from.ring, in `ring`, and the set's moments, in nodes.solution. kLimit: out of
 /// memory.
 Status light_ring(const Context& context, const OrdinateCoarser& coarser, std::size_t s,
-                  OrdinateCells& nodes, Buffer<float>& ring, OrdinateSources& from);
+                  bool begins, OrdinateCells& nodes, Buffer<float>& ring, OrdinateSources& from);
 
 }  // namespace pileus

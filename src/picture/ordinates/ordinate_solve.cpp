@@ -243,7 +243,10 @@ Status set_work(const Context& context, const Medium& medium, const OrdinateCell
                                     "ordinates: slices"));
     if (solver.channel < 0) set_places(nodes, solver.place_x);
     // Empty nodes have no source.
-    if (solver.channel < 0 || solver.left) std::fill_n(w.radiance, all * kOrdinates, 0.0f);
+    if (solver.channel < 0 || solver.left)
+        parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int) {
+            std::fill_n(w.radiance + std::size_t(j) * all, all, 0.0f);
+        });
     solver.left = false;
     if (solver.channel != set.channel) {
         set_ways(context, medium, nodes, set.channel, a.way, solver.place_x.data(), w);

@@ -11,17 +11,12 @@
 namespace pileus {
 namespace {
 
-/// Nodes without medium have what their neighbours have, by extinction.
-void fill_empty(const OrdinateNodes& nodes, bool periodic, const float* from, float* to,
-                std::size_t node) {
-    if (nodes.density[node] > 0) {
-        to[node] = from[node];
-        return;
-    }
-    to[node] = 0;
+/// Calls use(neighbour) for those of a node that hold medium.
+template <class Use>
+void each_filled_neighbour(const OrdinateNodes& nodes, bool periodic, std::size_t node,
+                           const Use& use) {
     const std::int32_t* n = nodes.grid.size;
     const NodePlace at = node_place(nodes.grid, node);
-    float light = 0, mass = 0;
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x) {
@@ -33,11 +28,8 @@ void fill_empty(const OrdinateNodes& nodes, bool periodic, const float* from, fl
                 }
                 if (outside) continue;
                 const std::size_t other = node_number(nodes.grid, p);
-                if (!(nodes.density[other] > 0)) continue;
-                light += nodes.density[other] * from[other];
-                mass += nodes.density[other];
+                if (nodes.density[other] > 0) use(other);
             }
-    if (mass > 0) to[node] = light / mass;
 }
 
 /// Whether nodes are seen along one direction each by rays that read them.
@@ -56,11 +48,20 @@ bool seen_from_outside(const Medium& medium, const CameraParams& camera, const N
 
 namespace {
 
-/// Nodes without medium have what their neighbours have.
+/// Nodes without medium have what their neighbours have, by extinction.
 void spread_light(const Context& context, const OrdinateNodes& nodes, bool periodic,
                   const float* from, float* to) {
-    parallel_each(context.threads, nodes.density.size(),
-                  [&](std::size_t i) { fill_empty(nodes, periodic, from, to, i); });
+    std::fill_n(to, nodes.density.size(), 0.0f);
+    for (const std::int32_t i : nodes.filled.span()) to[std::size_t(i)] = from[std::size_t(i)];
+    parallel_each(context.threads, nodes.rim.size(), [&](std::size_t n) {
+        const auto i = std::size_t(nodes.rim[n]);
+        float light = 0, mass = 0;
+        each_filled_neighbour(nodes, periodic, i, [&](std::size_t other) {
+            light += nodes.density[other] * from[other];
+            mass += nodes.density[other];
+        });
+        to[i] = light / mass;
+    });
 }
 
 /// What a medium scatters of a solution towards the camera, from each node that holds some.
@@ -94,6 +95,22 @@ void place_moment(const OrdinateNodes& nodes, const float* from, float* to) {
 }
 
 }  // namespace
+
+Status find_rim(const Context& context, bool periodic, OrdinateNodes& out) {
+    const std::size_t nodes = out.density.size();
+    std::vector<char> beside(nodes, 0);
+    parallel_each(context.threads, nodes, [&](std::size_t i) {
+        if (out.density[i] > 0) return;
+        each_filled_neighbour(out, periodic, i, [&](std::size_t) { beside[i] = 1; });
+    });
+    std::uint64_t count = 0;
+    for (const char b : beside) count += b != 0 ? 1 : 0;
+    PILEUS_TRY(allocate(arrays::ordinate_rim(count), out.rim));
+    count = 0;
+    for (std::size_t i = 0; i < nodes; ++i)
+        if (beside[i] != 0) out.rim[count++] = std::int32_t(i);
+    return Status::ok();
+}
 
 bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGrid& grid) {
     return !seen_from_outside(medium, camera, grid);
@@ -162,6 +179,7 @@ Status moments_of(const Context& context, const OrdinateNodes& nodes, const Ordi
 
 Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,
                       bool together, OrdinateNodes& out) {
+    const StageClock clock(context, "ordinates");
     out.has_moments = sees_moments(medium, camera, out.grid);
     // Copies of a medium are seen in directions of their own, however far they are.
     const bool periodic = medium.grid.periodic, copies = periodic && camera.orthographic == 0;

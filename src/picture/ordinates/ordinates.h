@@ -110,6 +110,7 @@ struct OrdinateNodes : OrdinateCells {
     std::vector<OrdinateShown> shown;  ///< as `light` and `near` hold them
     bool has_moments = false;  ///< the camera is among the nodes, or copies of them are seen
     float per_near = 0;        ///< OrdinatesMarchParams::per_near
+    Buffer<std::int32_t> rim;  ///< empty nodes beside filled ones
     Buffer<float> samples;     ///< of the density, within nodes
     Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
     Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
@@ -172,6 +173,9 @@ inline Array<float> ordinate_seen(std::uint64_t nodes) {
 /// Which nodes hold medium; or where they are in slices along x.
 inline Array<std::int32_t> ordinate_places(std::uint64_t nodes, Stage last) {
     return {"ordinates: places of nodes", nodes, Stage::kShadow, last};
+}
+inline Array<std::int32_t> ordinate_rim(std::uint64_t nodes) {
+    return {"ordinates: rim of nodes", nodes, Stage::kShadow, Stage::kWrite};
 }
 /// Parts of the density, and of the depth towards the sun, by medium.
 inline Array<float> ordinate_parts(std::uint64_t nodes, int media) {
@@ -242,6 +246,7 @@ struct OrdinateAsk {
     int iterations = 0;  ///< > 0: so many at most, from the last solution on; 0: all, from none
     const LampNodes* lamps = nullptr;  ///< of these so many shine; null: none
     std::size_t first_lamp = 0, lamp_count = 0;
+    int beside = -1;        ///< one more of them; -1: none
     bool emission = false;  ///< media shine
     bool ground =
         false;  ///< light on the ground is wanted; it then sends up its mean below the medium
@@ -251,6 +256,13 @@ struct OrdinateAsk {
     int only = -1;            ///< set that is solved for; -1: all
     OrdinateCoarser coarser;  ///< of a ring
 };
+
+/// Calls use(index among ask.lamps) for each that shines.
+template <class Use>
+void each_lamp(const OrdinateAsk& ask, const Use& use) {
+    for (std::size_t i = 0; i < ask.lamp_count; ++i) use(ask.first_lamp + i);
+    if (ask.beside >= 0) use(std::size_t(ask.beside));
+}
 
 /// Radiances that enter, by light or, where channels differ, by channel.
 void set_ordinate_lights(const Medium& medium, const Lighting& lighting, const OrdinateAsk& ask,
@@ -297,6 +309,8 @@ Status reserve_ordinates(OrdinateNodes& out);
 
 /// Change of the mean radiance over its norm by an iteration that is the last.
 constexpr double kSolvedChange = 2e-4;
+/// Of a host's picture whose light follows its sun.
+constexpr int kFollowedIterations = 3;
 
 /// OrdinatesMarchParams::per_near of nodes with such edges, beyond which the camera is outside.
 constexpr double kNearNodes = 2;
@@ -314,6 +328,9 @@ bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGr
 
 /// Every set by itself.
 void show_each(OrdinateNodes& nodes);
+
+/// Finds OrdinateNodes::rim. kLimit: out of memory.
+Status find_rim(const Context& context, bool periodic, OrdinateNodes& out);
 
 /// nodes.light, of what one medium's whole phase function, without its albedo, scatters of all
 /// light but the first of the sun and lamps towards a camera. kLimit: out of memory.

@@ -68,12 +68,13 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
 
 Status solve_level(const Context& context, const Medium& medium, const Majorants& majorants,
                    const Lighting& lighting, const SkyOrdinateAsk& ask, const SkyLevel* coarser,
-                   const std::vector<OrdinateSet>& lights, int only, Buffer<float>& depths,
-                   SkyLevel& level) {
+                   const std::vector<OrdinateSet>& lights, int only, int iterations,
+                   Buffer<float>& depths, SkyLevel& level) {
     OrdinateAsk own;
     own.depths = &depths;
     own.sampled = true;
     own.only = only;
+    own.iterations = iterations;
     if (lighting.sunlit && (only < 0 || lights[std::size_t(only)].beam > 0)) {
         const StageClock clock(context, "ordinates");
         SkySampleParams k = sample_params(ask, level);
@@ -100,6 +101,7 @@ Status solve_level(const Context& context, const Medium& medium, const Majorants
     }
     PILEUS_TRY(make_ordinates(context, medium, majorants, lighting, own, level.nodes));
     level.solved = true;
+    level.followed = iterations > 0;
     return Status::ok();
 }
 

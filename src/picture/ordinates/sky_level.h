@@ -20,11 +20,11 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
                  const std::array<double, 2>& low, SkyLevel& level);
 
 /// Solves set `only` of the picture's lights, or with -1 all, by the coarser level; null: it is the
-/// coarsest. kLimit: out of memory.
+/// coarsest. `iterations`: OrdinateAsk's. kLimit: out of memory.
 Status solve_level(const Context& context, const Medium& medium, const Majorants& majorants,
                    const Lighting& lighting, const SkyOrdinateAsk& ask, const SkyLevel* coarser,
-                   const std::vector<OrdinateSet>& lights, int only, Buffer<float>& depths,
-                   SkyLevel& level);
+                   const std::vector<OrdinateSet>& lights, int only, int iterations,
+                   Buffer<float>& depths, SkyLevel& level);
 
 /// What the march reads of levels, and light on their nodes towards the camera. kLimit: out of
 /// memory.

@@ -85,7 +85,8 @@ Need need_of(const SkyOrdinates& of, std::size_t l, const Lighting& lighting,
     if (level.low != low_of(of, l, *ask.sky, ask.camera) || !holds_lights(level, of.lights) ||
         (coarser != nullptr && level.moves_from != coarser->moves))
         return Need::kAll;
-    if (level.to_sun != lighting.to_sun || (coarser != nullptr && level.made_from != coarser->made))
+    if (level.followed || level.to_sun != lighting.to_sun ||
+        (coarser != nullptr && level.made_from != coarser->made))
         return Need::kSun;
     return Need::kNothing;
 }
@@ -220,7 +221,10 @@ private:
         SkyLevel& level = out_.levels[l];
         if (need == Need::kAll)
             place_level(context_, medium_, ask_, low_of(out_, l, *ask_.sky, ask_.camera), level);
-        PILEUS_TRY(solve(l, -1, level));
+        // A sun that stands still again has the light that it has without following.
+        const bool follows =
+            ask_.pictures > 1 && need == Need::kSun && level.to_sun != lighting_.to_sun;
+        PILEUS_TRY(solve(l, -1, follows ? kFollowedIterations : 0, level));
         if (need == Need::kAll) ++level.moves;
         ++level.made;
         return Status::ok();
@@ -230,7 +234,7 @@ private:
     Status build() {
         const auto l = std::size_t(out_.building);
         SkyLevel& level = out_.levels[l];
-        PILEUS_TRY(solve(l, out_.built, out_.spare));
+        PILEUS_TRY(solve(l, out_.built, 0, out_.spare));
         if (++out_.built < int(out_.lights.size())) return Status::ok();
         out_.spare.made = level.made + 1;
         out_.spare.moves = level.moves + 1;
@@ -239,9 +243,9 @@ private:
         return Status::ok();
     }
 
-    Status solve(std::size_t l, int only, SkyLevel& level) {
+    Status solve(std::size_t l, int only, int iterations, SkyLevel& level) {
         return solve_level(context_, medium_, majorants_, lighting_, ask_, coarser_of(out_, l),
-                           out_.lights, only, out_.depths, level);
+                           out_.lights, only, iterations, out_.depths, level);
     }
 
     const Context& context_;

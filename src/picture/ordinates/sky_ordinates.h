@@ -32,8 +32,8 @@ struct SkyLevel {
     OrdinateNodes nodes;
     std::array<double, 2> low{};  ///< m, box-local
     double step[2] = {};
-    bool solved = false;
-    std::uint64_t moves = 0, made = 0;            ///< places and solutions so far
+    bool solved = false, followed = false;  ///< by some iterations, from another sun's solution
+    std::uint64_t moves = 0, made = 0;      ///< places and solutions so far
     std::uint64_t moves_from = 0, made_from = 0;  ///< of the coarser one, when this was solved
     std::array<float, 3> to_sun{};                ///< then
 };

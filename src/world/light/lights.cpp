@@ -222,6 +222,7 @@ Lighting sun_alone(const Lighting& all) {
     sun.constant = sun.sky = sun.ground_diffuse = sun.ground_lamps = {};
     sun.map = SkyMapView{};
     sun.lamps.clear();
+    sun.lamp_spots.clear();
     return sun;
 }
 
@@ -275,6 +276,8 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
         if (shining.sky.present && !mapped) out.sky[c] = double(shining.sky.radiance[c]);
     make_ground(shining, medium, mapped ? map : nullptr, place.elevation_deg, out);
     if (!shining.lamps.empty()) out.lamps = make_lamps(shining.lamps, shining.ground, medium);
+    for (const LampParams& lamp : out.lamps)
+        out.lamp_spots.push_back(spot_on_ground(lamp, out, medium));
     out.ground_lamps = ground_of_lamps(out);
     if (is_dark(medium)) return out;
     if (out.sunlit) {

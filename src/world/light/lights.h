@@ -45,6 +45,7 @@ struct Lighting {
     const CameraDepth* depth = nullptr;  ///< what hides alone; null: nothing does
     std::vector<Light> lights;
     std::vector<LampParams> lamps;            ///< point, spot and parallel lights
+    std::vector<LampParams> lamp_spots;       ///< [lamp]: spot_on_ground
     std::vector<LampEmission> lamp_emission;  ///< of each, for photons
     Double3 constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
@@ -72,6 +73,7 @@ struct Lighting {
     void reserve(std::size_t lamp_count) {
         lights.reserve(kLights ? 4 + std::size_t(kMostMedia) : 4);
         lamps.reserve(lamp_count);
+        lamp_spots.reserve(lamp_count);
         lamp_emission.reserve(lamp_count);
     }
 
@@ -133,6 +135,12 @@ Light beam_light(const Medium& medium, const Double3& travel);
 /// ground hides them from all that is above.
 std::vector<LampParams> make_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
                                    const Medium& medium);
+/// What the ground sends up of a point or spot light, as a light of its own: one below the middle
+/// of where its light falls, by as much as that is wide. Its intensity falls off with the angle
+/// from straight up nearly as the cosine: x^2 (3 - 2 x) has the same flux. Strength 0 where it
+/// sends nothing: without a ground, of parallel lights, and where the medium between takes most of
+/// it.
+LampParams spot_on_ground(const LampParams& lamp, const Lighting& light, const Medium& medium);
 /// Which were left out, and why.
 void explain_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
                    const Medium& medium, Plan& plan);
