@@ -4,7 +4,6 @@
 #include "src/base/number_text.h"
 #include "src/flight/flight.h"
 #include "src/plan/report_json.h"
-#include "src/scene/toml/toml_tree.h"
 #include "src/session/warnings.h"
 
 namespace pileus::api {

@@ -8,7 +8,6 @@
 #include "src/base/number_text.h"
 #include "src/base/single.h"
 #include "src/scene/number_keys.h"
-#include "src/scene/toml/toml_tree.h"
 
 namespace pileus::api {
 namespace {

@@ -8,24 +8,24 @@ namespace pileus {
 namespace {
 
 /// More than any number's digits.
-constexpr std::size_t kMostDigits = 40;
+constexpr std::size_t kMaxDigits = 40;
 
 }  // namespace
 
 std::string number_text(double value) {
-    char text[kMostDigits];
-    return std::string(text, std::to_chars(text, text + kMostDigits, value).ptr);
+    char text[kMaxDigits];
+    return std::string(text, std::to_chars(text, text + kMaxDigits, value).ptr);
 }
 
 std::string number_text(float value) {
-    char text[kMostDigits];
-    return std::string(text, std::to_chars(text, text + kMostDigits, value).ptr);
+    char text[kMaxDigits];
+    return std::string(text, std::to_chars(text, text + kMaxDigits, value).ptr);
 }
 
 std::string number_text(double value, int digits) {
-    char text[kMostDigits];
+    char text[kMaxDigits];
     const auto end =
-        std::to_chars(text, text + kMostDigits, value, std::chars_format::general, digits);
+        std::to_chars(text, text + kMaxDigits, value, std::chars_format::general, digits);
     return std::string(text, end.ptr);
 }
 

@@ -103,8 +103,7 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
     explain_crop(described, report.plan);
     const SkyAnimation animation(scene);
     const int run = film_run(scene), first = frames.first;
-    const int begin = run > 0 ? first - first % run : first;
-    for (int frame = begin; frame <= frames.last; ++frame) {
+    for (int frame = film_begin(scene, first); frame <= frames.last; ++frame) {
         const RunStart frame_start;
         Image image;
         PILEUS_TRY(animation.set(frame, sky));

@@ -75,7 +75,7 @@ Status render_frames(const Scene& scene, const Shown& shown, const RunStart& sta
     if (verifies)
         PILEUS_TRY(verifier.open(scene, opened, std::uint64_t(options.verify), session.context(),
                                  session.scenery().world));
-    const int run = film_run(scene), begin = run > 0 ? first - first % run : first;
+    const int run = film_run(scene), begin = film_begin(scene, first);
     for (int frame = begin; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
         Image image;
@@ -138,6 +138,11 @@ int film_run(const Scene& scene) {
     const MethodTools tools = method_tools(scene.method);
     if (frames_stand_alone(scene) || tools.film_memory == nullptr) return 0;
     return tools.film_memory(scene).pictures ? kFrames : 0;
+}
+
+int film_begin(const Scene& scene, int frame) {
+    const int run = film_run(scene);
+    return run > 0 ? frame - frame % run : frame;
 }
 
 Status render(const Scene& described, const RenderOptions& options, const FrameSink& sink) {

@@ -64,6 +64,8 @@ bool frames_stand_alone(const Scene& scene);
 /// f on those from f - f % film_run on, which are drawn first wherever a range of frames begins. 0:
 /// none depends on others.
 int film_run(const Scene& scene);
+/// The first frame that is drawn so that `frame` is that of the whole film.
+int film_begin(const Scene& scene, int frame);
 
 /// Renders frames [first_frame, last_frame] (a still scene has frame 0 only) by the scene's
 /// method; after an interrupted one no further frame comes. Errors: kBadInput (scene, files, isa,

@@ -2,8 +2,6 @@
 // See warnings.h.
 #include "src/session/warnings.h"
 
-#include <cstdio>
-
 #include "src/base/number_text.h"
 
 namespace pileus {

@@ -121,8 +121,8 @@ bool remembers(const PictureScene& picture, const Scene& scene, bool& clocked) {
     if (frames_stand_alone(scene) || tools.film_memory == nullptr) return false;
     const FilmMemory memory = tools.film_memory(scene);
     // A ring that was cut short grows by a generation a frame; other frames end as they like.
-    const int run = film_run(scene);
-    clocked = picture.ended && run > 0 && picture.frame % run != 0 && !memory.ring;
+    const bool leads = film_begin(scene, picture.frame) < picture.frame;
+    clocked = picture.ended && leads && !memory.ring;
     bool cut = picture.ended;
     for (const std::string& budget : picture.budgets) cut |= budget.rfind("generations=", 0) == 0;
     return cut && memory.ring;

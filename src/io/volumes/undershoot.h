@@ -4,7 +4,6 @@
 // docs/formats.md, "Densities in"
 #pragma once
 #include <algorithm>
-#include <charconv>
 #include <string>
 
 #include "src/base/number_text.h"

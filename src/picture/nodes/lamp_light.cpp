@@ -31,20 +31,12 @@ NodeGrid lamp_node_grid(const Medium& medium) {
         return count;
     };
     while (nodes(spacing / 1.125) <= budget) spacing /= 1.125;
-    NodeGrid g{};
+    int size[3];
     for (int a = 0; a < 3; ++a) {
         const int n = int(medium.extent_m[a] / spacing + 0.5);
-        g.size[a] = n < 1 ? 1 : n;
-        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
+        size[a] = n < 1 ? 1 : n;
     }
-    return g;
-}
-
-std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting, bool spots) {
-    if (lighting.lamps.empty()) return 0;
-    std::uint64_t lamps = lighting.lamps.size();
-    for (const LampParams& spot : lighting.lamp_spots) lamps += spots && spot.strength > 0 ? 1 : 0;
-    return bytes_of(node_count(lamp_node_grid(medium)), lamps);
+    return make_sized_grid(size, medium.extent_m);
 }
 
 namespace {
@@ -57,6 +49,16 @@ void each_light(const Lighting& lighting, bool spots, const Use& use) {
     for (const LampParams& spot : lighting.lamp_spots)
         if (spots && spot.strength > 0) use(n++, spot);
 }
+
+}  // namespace
+
+std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting, bool spots) {
+    std::uint64_t lamps = 0;
+    each_light(lighting, spots, [&](std::size_t, const LampParams&) { ++lamps; });
+    return lamps > 0 ? bytes_of(node_count(lamp_node_grid(medium)), lamps) : 0;
+}
+
+namespace {
 
 /// Whether nodes are of these lamps already; else lists them, in the memory that there is.
 bool same_lights(const Lighting& lighting, bool spots, LampNodes& out) {

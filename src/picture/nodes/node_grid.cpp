@@ -60,13 +60,19 @@ NodeGrid make_layered_grid(const Grid& grid, const double (&extent_m)[3], double
     return g;
 }
 
-NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
+NodeGrid make_sized_grid(const int (&size)[3], const double (&extent_m)[3]) {
     NodeGrid g{};
     for (int a = 0; a < 3; ++a) {
-        g.size[a] = (grid.size[a] + 1) / 2;
-        g.per_metre[a] = float(g.size[a] / extent_m[a]);
+        g.size[a] = size[a];
+        g.per_metre[a] = float(size[a] / extent_m[a]);
     }
     return g;
+}
+
+NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
+    int size[3];
+    for (int a = 0; a < 3; ++a) size[a] = (grid.size[a] + 1) / 2;
+    return make_sized_grid(size, extent_m);
 }
 
 NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {

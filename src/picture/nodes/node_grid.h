@@ -25,6 +25,9 @@ inline double layers_of_depth(double depth, double most) {
     return layers < most ? layers : most;
 }
 
+/// So many nodes along each axis.
+NodeGrid make_sized_grid(const int (&size)[3], const double (&extent_m)[3]);
+
 /// Nodes two voxels apart along each axis, for what changes from voxel to voxel along a way through
 /// them, as depths towards the sun do: where voxels are flat, over less than their longest edge.
 NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]);

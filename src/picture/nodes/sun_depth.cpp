@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/core/math.h"
 #include "src/picture/march_view.h"
+#include "src/picture/nodes/node_grid.h"
 #include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/sweep_taps.h"
 #include "src/run/device_launch.h"
@@ -132,20 +133,9 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
     return cast_rays(context, medium, majorants, to_sun, out.nodes, out.optical_depth.data());
 }
 
-namespace {
-
-NodeGrid nodes_of(const Medium& medium, const int (&size)[3]) {
-    NodeGrid nodes{};
-    for (int a = 0; a < 3; ++a) {
-        nodes.size[a] = size[a];
-        nodes.per_metre[a] = float(size[a] / medium.extent_m[a]);
-    }
-    return nodes;
+NodeGrid sun_depth_nodes(const Medium& medium) {
+    return make_sized_grid(medium.grid.size, medium.extent_m);
 }
-
-}  // namespace
-
-NodeGrid sun_depth_nodes(const Medium& medium) { return nodes_of(medium, medium.grid.size); }
 
 NodeGrid wide_sun_depth_nodes(const Medium& medium) {
     constexpr int kMinNodes = 8;
@@ -154,7 +144,7 @@ NodeGrid wide_sun_depth_nodes(const Medium& medium) {
         const int voxels = medium.grid.size[a];
         size[a] = voxels >= 2 * kMinNodes ? (voxels + 1) / 2 : voxels;
     }
-    return nodes_of(medium, size);
+    return make_sized_grid(size, medium.extent_m);
 }
 
 Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,

@@ -7,8 +7,8 @@
 
 namespace pileus {
 
-/// Of set `s`: from.ring, in `ring`, and the set's moments, in nodes.solution. kLimit: out of
-/// memory.
+/// Of set `s`: from.ring, in `ring`, and where its solution `begins` the set's moments, in
+/// nodes.solution. kLimit: out of memory.
 Status light_ring(const Context& context, const OrdinateCoarser& coarser, std::size_t s,
                   bool begins, OrdinateCells& nodes, Buffer<float>& ring, OrdinateSources& from);
 

@@ -290,8 +290,8 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     const Work& w = a.work;
     const OrdinatesParams& k = a.k;
     const std::size_t count = nodes.filled.size();
-    const bool begins = iterations == 0 || !set.solved;
-    if (begins && !from.started) {
+    const bool begun = begins(iterations, set);
+    if (begun && !from.started) {
         // Where nothing is absorbed, much of what is within is as bright as what enters.
         float mean = 0;
         for (int j = 0; j < kOrdinates; ++j)
@@ -299,7 +299,7 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
         std::fill_n(moments, count, mean);
         std::fill_n(moments + count, count * (kOrdinateMoments - 1), 0.0f);
     }
-    const int most = begins ? kMaxIterations : std::min(iterations, kMaxIterations);
+    const int most = begun ? kMaxIterations : std::min(iterations, kMaxIterations);
     double least = 0;
     int first = 0;  // of the iterations that are mixed
     for (set.iterations = 0; set.iterations < most;) {

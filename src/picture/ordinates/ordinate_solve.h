@@ -43,6 +43,11 @@ inline std::uint64_t ring_count(const NodeGrid& grid) {
     return count;
 }
 
+/// Whether a solution begins, in place of going on from that of another light.
+inline bool begins(int iterations, const OrdinateSet& set) {
+    return iterations == 0 || !set.solved;
+}
+
 /// `iterations`: at most, from set.solved on; 0: all, from none. `moments`: [moment][filled].
 /// kLimit: out of memory.
 Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateCells& nodes,

@@ -120,7 +120,7 @@ Status solve_set(const Context& context, const Medium& medium, const Lighting& l
                  OrdinateSolver& solver, OrdinateSolver& larger, OrdinateNodes& out) {
     OrdinateSet& set = out.sets[s];
     float* const moments = out.solution.data() + s * out.filled.size() * kOrdinateMoments;
-    if (ask.iterations == 0 || !set.solved) {
+    if (begins(ask.iterations, set)) {
         PILEUS_TRY(solve_half(context, medium, out, lighting, ask, from, s, larger));
         if (!from.started) start_from_half(context, out, s, moments);
         from.started = true;
@@ -174,8 +174,9 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
         OrdinateSources from;
         if (set.beam > 0) from.beam = beam.data();
         PILEUS_TRY(own_light(context, medium, out, ask, set, own, from.fixed));
-        const bool begins = ask.iterations == 0 || !set.solved;
-        if (out.ring) PILEUS_TRY(light_ring(context, ask.coarser, s, begins, out, ring, from));
+        if (out.ring)
+            PILEUS_TRY(
+                light_ring(context, ask.coarser, s, begins(ask.iterations, set), out, ring, from));
         if (!solved)
             PILEUS_TRY(solve_set(context, medium, lighting, ask, s, from, solver, larger, out));
         if (ground) PILEUS_TRY(light_ground(context, medium, lighting, from, s, solver, out));

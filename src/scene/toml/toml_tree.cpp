@@ -22,8 +22,6 @@
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
 
-#include <charconv>
-
 #include "src/base/number_text.h"
 #include "src/base/printable.h"
 #include "src/base/single.h"

@@ -150,7 +150,7 @@ LitGround lit_ground(const LampParams& lamp, double height) {
 }  // namespace
 
 LampParams spot_on_ground(const LampParams& lamp, const Lighting& light, const Medium& medium) {
-    constexpr double kMostDepth = 1;
+    constexpr double kMaxDepth = 1;
     // Of a lamp h over the ground that shines all around, half of the flux within 1.73 h: straight
     // above it what the ground sends up is that of a point 1.18 h to 1.31 h below, at any height.
     constexpr double kBelow = 0.69;
@@ -162,7 +162,7 @@ LampParams spot_on_ground(const LampParams& lamp, const Lighting& light, const M
         return spot;
     const LitGround lit = lit_ground(lamp, height);
     const double depth = depth_to_ground(medium, lamp.at, height);
-    if (depth > kMostDepth) return spot;
+    if (depth > kMaxDepth) return spot;
     // A flux F leaves the ground with the intensity F cos / pi.
     const double sent = light.ground_albedo / kHalfTurn * lit.flux * double(exp_(float(-depth)));
     for (int a = 0; a < 2; ++a) spot.at[a] = float(double(lamp.at[a]) + lit.middle[a]);

@@ -9,7 +9,6 @@
 #include "kernels_cpu/media/detail.h"
 #include "platform/threads.h"
 #include "src/base/number_text.h"
-#include "src/scene/toml/toml_tree.h"
 #include "src/world/density/noise_volume.h"
 #include "src/world/medium/refine.h"
 

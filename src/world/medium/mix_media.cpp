@@ -4,12 +4,9 @@
 // docs/methods.md 2, "Several media".
 #include "src/world/medium/mix_media.h"
 
-#include <charconv>
-
 #include "src/base/number_text.h"
 #include "src/base/powers.h"
 #include "src/io/volumes/volume_file.h"
-#include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/detail.h"
 #include "src/world/medium/resample.h"
 

@@ -10,7 +10,6 @@
 #include "platform/threads.h"
 #include "src/base/number_text.h"
 #include "src/io/volumes/volume_file.h"
-#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {
