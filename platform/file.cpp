@@ -126,7 +126,7 @@ FileResult check_replaceable(const char* name) {
 }
 
 FileResult follow_links(const char* path, std::string& target) {
-    constexpr int kMostLinks = 40;  // as the kernel
+    constexpr int kMaxLinks = 40;  // as the kernel
     char text[4096];
     struct stat facts;
     char* resolved = ::realpath(path, nullptr);
@@ -135,7 +135,7 @@ FileResult follow_links(const char* path, std::string& target) {
     std::free(resolved);
     // Some links of /proc open what their text does not name.
     if (::stat(target.c_str(), &facts) == 0) return {};
-    for (int i = 0; i < kMostLinks; ++i) {
+    for (int i = 0; i < kMaxLinks; ++i) {
         const ssize_t length = ::readlink(target.c_str(), text, sizeof text);
         // EINVAL: no link. What cannot be looked at shows its fault where it is opened.
         if (length < 0) return {};

@@ -12,11 +12,11 @@ namespace pileus {
 
 namespace {
 
-constexpr std::size_t kMostWords = 120;
+constexpr std::size_t kMaxWords = 120;
 
 struct {
     volatile sig_atomic_t asked, held;
-    char line[kMostWords + 1];
+    char line[kMaxWords + 1];
     std::size_t line_size;
     int exit_status;
 } interrupt_state;
@@ -44,7 +44,7 @@ void catch_one(int number) {
 
 void catch_interrupts(const char* last_words, int exit_status) {
     auto& s = interrupt_state;
-    s.line_size = strnlen(last_words, kMostWords);
+    s.line_size = strnlen(last_words, kMaxWords);
     memcpy(s.line, last_words, s.line_size);
     if (s.line_size > 0) s.line[s.line_size++] = '\n';
     s.exit_status = exit_status;

@@ -24,7 +24,7 @@ namespace pileus {
 
 namespace {
 
-constexpr std::size_t kMostErrors = 65536;
+constexpr std::size_t kMaxErrors = 65536;
 constexpr int kLookEveryMs = 50;
 
 double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
@@ -85,7 +85,7 @@ void listen(int descriptor, pid_t child, const InterruptHold& hold, ProcessResul
         const ssize_t got = ::read(descriptor, block, sizeof block);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return;
-        const std::size_t room = kMostErrors - result.errors.size();
+        const std::size_t room = kMaxErrors - result.errors.size();
         result.errors.append(block, std::size_t(got) < room ? std::size_t(got) : room);
     }
 }

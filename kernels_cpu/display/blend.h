@@ -210,7 +210,7 @@ PILEUS_FN void blend_sphere(const BlendParams& p, const BlendBuffers& b, const B
     BlendStrip k;
     for (std::int32_t i = 0; i < p.channels; ++i)
         k.colour[i] = b.sphere_colour[std::size_t(i) * p.colour_stride + s.index];
-    const std::int32_t halvings = s.doublings > kMostDoublings ? 0 : s.doublings;
+    const std::int32_t halvings = s.doublings > kMaxDoublings ? 0 : s.doublings;
     k.per_metre = s.extinction * reinterpret<float>((127 - halvings) << 23);
     k.depth_scale = min_(2.0f * k.per_metre * s.half_scale, 1e30f);
     k.solid = s.far > nearest_solid;

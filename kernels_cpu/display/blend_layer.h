@@ -29,7 +29,7 @@ PILEUS_FN Attenuated<T> attenuate(T before, T depth) {
 }
 
 /// 1 - e^-(depth 2^doublings) for depth <= kThinLayer, interpolated at Chebyshev's nodes; then
-/// 1 - e^-2d = t (2 - t). Relative error <= 2^-22 at up to kMostDoublings.
+/// 1 - e^-2d = t (2 - t). Relative error <= 2^-22 at up to kMaxDoublings.
 template <class T>
 PILEUS_FN T layer_share(T depth, std::int32_t doublings) {
     const T square = depth * depth;
@@ -43,7 +43,7 @@ PILEUS_FN T layer_share(T depth, std::int32_t doublings) {
 /// `depth` as BlendSphere::doublings says. What is left is before - taken: right to 2^-24 before.
 template <class T>
 PILEUS_FN Attenuated<T> take_layer(T before, T depth, std::int32_t doublings) {
-    if (doublings > kMostDoublings) return attenuate(before, depth);
+    if (doublings > kMaxDoublings) return attenuate(before, depth);
     const T taken = before * layer_share(depth, doublings);
     return {taken, before - taken};
 }

@@ -14,12 +14,12 @@ constexpr float kBlendCut = 1e-4f;
 /// Pixels of a block, for every width of lanes: what is skipped as one once all are opaque.
 constexpr std::int32_t kBlendBlock = 16;
 /// Widest tile: a row's blocks fit the bits of one word.
-constexpr std::int32_t kMostTileWidth = 32 * kBlendBlock;
+constexpr std::int32_t kMaxTileWidth = 32 * kBlendBlock;
 /// Planes of a tile besides its colours: transmittance, half depth, 1/|ray|, opaque depth.
 constexpr std::int32_t kBlendPlanes = 4;
 /// Thickest layer whose share has its own polynomial, and how often that share is doubled.
 constexpr float kThinLayer = 0.35f;
-constexpr std::int32_t kMostDoublings = 4;
+constexpr std::int32_t kMaxDoublings = 4;
 
 /// How a sphere is met by rays: as an ellipse on the screen, or close to the camera, one by one.
 enum BlendKind : std::uint32_t { kBlendEllipse = 0, kBlendNear = 1 };
@@ -29,7 +29,7 @@ enum BlendKind : std::uint32_t { kBlendEllipse = 0, kBlendNear = 1 };
 /// An ellipse: dy = y - row - row_part, dx = x - column - (column_part + lean dy) in pixels, then
 /// q = 1 - ey dy^2 - ex dx^2 and half of the chord is half_scale sqrt(q) / |ray| metres. `reach`:
 /// columns from the middle to the rim where dy = 0, rounded up. `index` finds the colour.
-/// `doublings`: of the share taken at 2^-doublings of the depth; above kMostDoublings: by range.
+/// `doublings`: of the share taken at 2^-doublings of the depth; above kMaxDoublings: by range.
 struct BlendSphere {
     float x, y, z, radius_squared, extinction;
     float ex, ey, column_part, row_part, lean, reach, half_scale, far;

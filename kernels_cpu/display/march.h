@@ -23,12 +23,12 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-constexpr int kMostMarched = 3 * 17;  // channels: the picture's and those of sixteen batches
+constexpr int kMaxMarched = 3 * 17;  // channels: the picture's and those of sixteen batches
 
 /// The sun's first order along one ray, per unit of the sunlight that arrives.
 template <class T>
 struct SunAlongRay {
-    T phase[kMostMedia];
+    T phase[kMaxMedia];
     bool lit;
     T most;  // of any phase function's mean over the pixel, 1/sr
     BeamAngle<T> angle;
@@ -41,7 +41,7 @@ PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction
     const T turn =
         one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
     s.most = most_density(k.camera, direction);
-    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+    for (int i = 0; i < kMaxMedia && i < k.media; ++i) {
         s.phase[i] = min_(phase_density(k.phase[i], turn), s.most);
         for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
     }
@@ -91,8 +91,8 @@ PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec
 template <int W>
 struct NearLight {
     F<W> share{};
-    F<W> next{};                ///< m along the ray, where it is looked up again
-    F<W> colour[kMostMarched];  ///< of the last look, 0 before the first
+    F<W> next{};               ///< m along the ray, where it is looked up again
+    F<W> colour[kMaxMarched];  ///< of the last look, 0 before the first
 };
 template <int W>
 PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<F<W>>& ray, F<W> t,
@@ -212,7 +212,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     const bool wraps = k.medium.periodic != 0;
 
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
-    T colour[kMostMarched];
+    T colour[kMaxMarched];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
     Pace<T> pace;
     march_ray<Constant>(

@@ -69,9 +69,9 @@ struct ShadowBuffers {
 
 /// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
 constexpr int kHarmonicsAbreast = 16;
-constexpr int kMostHarmonics = 96;
+constexpr int kMaxHarmonics = 96;
 
-static_assert(kMostHarmonics % kHarmonicsAbreast == 0, "whole groups");
+static_assert(kMaxHarmonics % kHarmonicsAbreast == 0, "whole groups");
 
 /// A beam's light by angle and optical depth: what scatterings within its peak add to what is left
 /// of it. Angles even near both ends, depths as tau / (tau + kBeamDepth).
@@ -85,10 +85,10 @@ struct MarchParams {
     MediumView medium;
     CameraParams camera;
     PixelLattice lattice;  ///< the pixels of it that are marched; planes are of its size
-    std::int32_t media;    ///< on the grid, 1..kMostMedia
-    PhaseParams phase[kMostMedia];
+    std::int32_t media;    ///< on the grid, 1..kMaxMedia
+    PhaseParams phase[kMaxMedia];
     float sun_travel[3];
-    float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
+    float sun_source[kMaxMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
     float constant[3];  ///< source everywhere in the media: sky by the furnace identity
     NodeGrid shadow, source;
     std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)

@@ -78,14 +78,14 @@ PILEUS_FN T least_way(T step, T length) {
 constexpr float kLeastStep = 0x1p-13f;
 
 /// Most steps of a ray through a periodic medium: a level ray would see no end of it.
-constexpr float kMostPeriodicSteps = 0x1p17f;
+constexpr float kMaxPeriodicSteps = 0x1p17f;
 
 /// Where a ray enters and leaves the medium's box, or the layer that a periodic one is.
 template <class T>
 PILEUS_FN Segment<T> clip_to_medium(const MediumView& m, const Ray<T>& ray) {
     if (m.periodic == 0) return clip_to_box(ray.origin, ray.direction, m.extent);
     Segment<T> s = clip_to_layer(ray.origin.z, ray.direction.z, m.extent[2]);
-    s.leave = min_(s.leave, s.enter + kMostPeriodicSteps * m.step);
+    s.leave = min_(s.leave, s.enter + kMaxPeriodicSteps * m.step);
     return s;
 }
 
@@ -118,7 +118,7 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
     T n{};  // steps; through constant voxels metres
     auto alive = enter < leave;
     // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
-    const float least = m.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
+    const float least = m.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kLeastStep;
     const T step = max_(all<T>(m.step), (leave - enter) * least), per_metre = 1.0f / step;
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {

@@ -14,7 +14,7 @@ inline namespace PILEUS_ISA {
 /// come for each axis the Legendre polynomials of the angle to it.
 template <int W>
 struct RayHarmonics {
-    float y[W][kMostHarmonics];
+    float y[W][kMaxHarmonics];
 };
 
 /// Those of one axis, straight along `way`, in the lanes of `bits`; light travels along `to`.

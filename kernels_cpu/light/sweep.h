@@ -14,7 +14,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Sums stop here: infinity times a weight of 0 would be no number.
-constexpr float kMostOpticalDepth = 1e30f;
+constexpr float kMaxOpticalDepth = 1e30f;
 
 template <class T>
 PILEUS_FN T load_sweep(const float* from) {
@@ -32,7 +32,7 @@ PILEUS_FN T sweep_sum(const Weight (&above)[4], const Weight (&far)[4], const We
     for (int i = 1; i < 4; ++i) sum = sum + own[i] * near[i];
     for (int i = 0; i < 4; ++i) sum = sum + beyond[i] * far[i];
     for (int i = 0; i < 4; ++i) sum = sum + tau[i] * above[i];
-    return min_(sum, all<T>(kMostOpticalDepth));
+    return min_(sum, all<T>(kMaxOpticalDepth));
 }
 
 /// Rows along x: [0] at the node, [1] a step towards the sun along the other lesser axis.

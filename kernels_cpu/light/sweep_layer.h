@@ -39,7 +39,7 @@ PILEUS_FN void sweep_layer_rows(const SweepLayerParams& k, const SweepBuffers& b
             add_tap<W>(out, from, tap.dx, tap.weight, 0, nx - tap.dx);
             add_tap<W>(out, from, tap.dx - nx, tap.weight, nx - tap.dx, nx);
         }
-        for (std::int32_t x = 0; x < nx; ++x) out[x] = min_(out[x], kMostOpticalDepth);
+        for (std::int32_t x = 0; x < nx; ++x) out[x] = min_(out[x], kMaxOpticalDepth);
     }
 }
 

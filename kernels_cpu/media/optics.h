@@ -9,7 +9,7 @@
 namespace pileus {
 
 /// Media that one scene may lay over one another.
-constexpr int kMostMedia = 8;
+constexpr int kMaxMedia = 8;
 
 /// Of one medium. Unless told otherwise it is white and scatters alike in all directions.
 struct Optics {

@@ -16,8 +16,8 @@ inline namespace PILEUS_ISA {
 /// What does not change along a ray.
 template <class T>
 struct OrdinatesRay {
-    T turn, most;                           ///< of the sun: 1 - cos; bound on a phase function
-    T apart[kMostMedia], peak[kMostMedia];  ///< phase function without and within its peak
+    T turn, most;                         ///< of the sun: 1 - cos; bound on a phase function
+    T apart[kMaxMedia], peak[kMaxMedia];  ///< phase function without and within its peak
     BeamAngle<T> angle;
     T harmonic[kOrdinateMoments];  ///< of the way to the camera
 };
@@ -29,7 +29,7 @@ PILEUS_FN OrdinatesRay<T> ordinates_ray(const OrdinatesMarchParams& o, const Vec
     r.turn = one_minus_cosine(to_sun, d);
     r.most = most_density(k.camera, d);
     const T within = share_in_peak(r.turn, o.turn);
-    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+    for (int i = 0; i < kMaxMedia && i < k.media; ++i) {
         const T phase = min_(phase_density(k.phase[i], r.turn), r.most);
         r.peak[i] = phase * within;
         r.apart[i] = phase - r.peak[i];

@@ -35,11 +35,11 @@ struct OrdinatesParams {
     OrdinateSweep sweep[kOrdinates];
     float harmonic[kOrdinates][kOrdinateMoments];  ///< of its direction
     float weight[kOrdinates];                      ///< solid angle, sr; 4 pi in all
-    std::int32_t media;                            ///< 1..kMostMedia
-    float scatter[kMostMedia][4];        ///< albedo times the phase function's moments, both scaled
-    float beam[kMostMedia][kOrdinates];  ///< share of a beam's light scattered there, 1/sr
-    float enters[kOrdinates];            ///< radiance at the faces
-    float below[kOrdinates];             ///< of light that goes up, at the lower one
+    std::int32_t media;                            ///< 1..kMaxMedia
+    float scatter[kMaxMedia][4];        ///< albedo times the phase function's moments, both scaled
+    float beam[kMaxMedia][kOrdinates];  ///< share of a beam's light scattered there, 1/sr
+    float enters[kOrdinates];           ///< radiance at the faces
+    float below[kOrdinates];            ///< of light that goes up, at the lower one
 };
 
 struct OrdinatesBuffers {
@@ -86,17 +86,17 @@ struct OrdinatesMarchParams {
     std::int32_t sets;     ///< of light, each of one colour
     std::int32_t moments;  ///< kOrdinateMoments: there are such, read near the camera; 0: none
     float per_near;        ///< of half the distance to where they count no more, 1/m; 0: no end
-    float colour[kMaxOrdinateSets][3];               ///< R G B of each set
-    float scatter[kMaxOrdinateSets][kMostMedia][4];  ///< of each set, by degree; with moments alone
-    std::int32_t channels;                           ///< 1, or 3 where they absorb differently
-    float rest[kMostMedia][3];  ///< 1 - albedo times the peak's share: of extinction that counts
-    float beam_rest[3];         ///< of what the beam's tables are of
-    float turn;                 ///< 1 - cos of the peak's width
+    float colour[kMaxOrdinateSets][3];              ///< R G B of each set
+    float scatter[kMaxOrdinateSets][kMaxMedia][4];  ///< of each set, by degree; with moments alone
+    std::int32_t channels;                          ///< 1, or 3 where they absorb differently
+    float rest[kMaxMedia][3];  ///< 1 - albedo times the peak's share: of extinction that counts
+    float beam_rest[3];        ///< of what the beam's tables are of
+    float turn;                ///< 1 - cos of the peak's width
     std::int32_t sunlit;
-    float sun[kMostMedia][3];  ///< irradiance times albedo
-    float sky[3];              ///< radiance behind the medium
-    SkyMapView map;            ///< or of a map
-    float ground[3];           ///< of rays that go down
+    float sun[kMaxMedia][3];  ///< irradiance times albedo
+    float sky[3];             ///< radiance behind the medium
+    SkyMapView map;           ///< or of a map
+    float ground[3];          ///< of rays that go down
     std::int32_t has_ground;
     /// Share of what turns within the peak that comes from above the horizon, by the sine of the
     /// ray's height, from 0 to that of the peak's width.

@@ -131,7 +131,7 @@ PILEUS_FN void particle_lamp_light(const ParticleMarchParams& k, const ParticleL
         for (std::int32_t n = 0; n < b.count; ++n) {
             const LampParams& lamp = b.lamps[n];
             const LampSight<T> sight = see_lamp(lamp, p);
-            T depth{}, reach{}, share = sight.share, phases[kMostParticleOrders] = {};
+            T depth{}, reach{}, share = sight.share, phases[kMaxParticleOrders] = {};
             const std::uint64_t at = std::uint64_t(n) * b.balls;
             for (int l = 0; l < W; ++l) {
                 set_lane(depth, l, number(b.depth + at, l));

@@ -30,7 +30,7 @@ PILEUS_FN std::int32_t largest_lane(Int v, Mask m) {
 /// Phase functions of the sun's orders along a ray.
 template <class T>
 struct ParticlePhases {
-    T order[kMostParticleOrders];
+    T order[kMaxParticleOrders];
 };
 template <class T>
 PILEUS_FN ParticlePhases<T> particle_phases(const ParticleMarchParams& k, const Vec<T>& direction) {

@@ -52,7 +52,7 @@ struct ParticleDepthBuffers {
     float* depth;            ///< [place], added to
 };
 
-constexpr int kMostParticleOrders = 8;
+constexpr int kMaxParticleOrders = 8;
 /// Sums of a bin: optical depth; that times the depth towards the sun, or times the place along the
 /// ray; that times light from around; that times the share that solids leave of the sun; that times
 /// colours.
@@ -68,12 +68,12 @@ struct ParticleMarchParams {
     ParticleView view;
     CameraParams camera;
     std::int32_t bins;                  ///< along a ray's way through the box of all
-    std::int32_t orders;                ///< of the sun's light, 0 to kMostParticleOrders; 0: no sun
+    std::int32_t orders;                ///< of the sun's light, 0 to kMaxParticleOrders; 0: no sun
     float sun_travel[3];                ///< unit, away from the sun
-    float sun[kMostParticleOrders][3];  ///< irradiance times albedo times the order's share
-    float thinner[kMostParticleOrders];  ///< factor on the depth towards the sun
-    PhaseParams phase;                   ///< of the first order
-    float order_g[kMostParticleOrders];  ///< of Henyey-Greenstein; from the second order on
+    float sun[kMaxParticleOrders][3];   ///< irradiance times albedo times the order's share
+    float thinner[kMaxParticleOrders];  ///< factor on the depth towards the sun
+    PhaseParams phase;                  ///< of the first order
+    float order_g[kMaxParticleOrders];  ///< of Henyey-Greenstein; from the second order on
     float albedo[3];
     std::int32_t exact;  ///< 1: a walk towards the sun from each bin; 0: what `shade` says
     float most;          ///< of that walk: it ends where it is as deep
@@ -112,9 +112,9 @@ struct ParticleTileBuffers {
 };
 
 /// Most lanes of a launch.
-constexpr int kMostParticleLanes = 16;
+constexpr int kMaxParticleLanes = 16;
 constexpr std::uint64_t particle_scratch_floats(std::int32_t bins) {
-    return std::uint64_t(bins) * kParticleSums * kMostParticleLanes;
+    return std::uint64_t(bins) * kParticleSums * kMaxParticleLanes;
 }
 /// Of one thread with one lane.
 constexpr std::uint64_t particle_scratch_share(std::int32_t bins) {
@@ -136,14 +136,14 @@ struct ParticleLampDepthBuffers {
 struct ParticleLampLight {
     const LampParams* lamps;
     std::int32_t count;
-    std::int32_t orders;                  ///< as ParticleMarchParams has them for the sun
-    float share[kMostParticleOrders][3];  ///< of each order, without the last albedo
-    const float* depth;                   ///< [lamp][ball]
-    const float* reach;                   ///< [lamp][ball]: its growth over a radius
-    const float* seen;                    ///< [lamp][ball]: share that solids leave; null: all
-    const float* sky;                     ///< [channel][ball], added; null: none
-    const float* tint;                    ///< [ball][channel]: factor on the albedo; null: 1
-    float* light;                         ///< [channel][ball]
+    std::int32_t orders;                 ///< as ParticleMarchParams has them for the sun
+    float share[kMaxParticleOrders][3];  ///< of each order, without the last albedo
+    const float* depth;                  ///< [lamp][ball]
+    const float* reach;                  ///< [lamp][ball]: its growth over a radius
+    const float* seen;                   ///< [lamp][ball]: share that solids leave; null: all
+    const float* sky;                    ///< [channel][ball], added; null: none
+    const float* tint;                   ///< [ball][channel]: factor on the albedo; null: 1
+    float* light;                        ///< [channel][ball]
     std::uint64_t balls;
 };
 

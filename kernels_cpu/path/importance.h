@@ -86,10 +86,10 @@ PILEUS_FN M<W> weigh(ImportanceGroup<W>& g, const PathParams& k, PathTally& tall
 
     // As many copies as keep the weight of each in its window; one where it is near it.
     const T wanted = s.weight * (q.windows * (worth / s.level + kWindowFloor));
-    const T number = min_(max_(wanted, all<T>(1e-6f)), all<T>(kMostCopies));
+    const T number = min_(max_(wanted, all<T>(1e-6f)), all<T>(kMaxCopies));
     I<W> copies = floor_int(number + uniform(w.b));
     M<W> moved = m & ((number < 0.5f) | (number > 2.0f));
-    const M<W> full = moved & (copies > 1) & (s.waits >= kMostWaiting);
+    const M<W> full = moved & (copies > 1) & (s.waits >= kMaxWaiting);
     if (any(full)) tally.unsplit += count_bits(bits_of(full));
     moved = moved & lnot(full & (number > 2.0f));
     copies = select(moved, copies, all<I<W>>(1));

@@ -10,7 +10,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Vertices of one sample that may have copies waiting at a time; beyond, particles are not split.
-constexpr int kMostWaiting = 48;
+constexpr int kMaxWaiting = 48;
 
 /// Copies that are still to leave a vertex.
 struct WaitingCopies {
@@ -49,7 +49,7 @@ struct ImportanceGroup {
     M<W> hits;
     I<W> corner;
     Words<U<W>> w;
-    WaitingCopies waiting[W][kMostWaiting];
+    WaitingCopies waiting[W][kMaxWaiting];
 };
 
 template <int W>

@@ -15,7 +15,7 @@ constexpr int kImportanceLobes = 3;
 /// Depths for which the lobes are fitted, evenly in tau / (tau + kBeamDepth).
 constexpr int kImportanceDepths = 256;
 /// Most copies of one particle.
-constexpr float kMostCopies = 50.0f;
+constexpr float kMaxCopies = 50.0f;
 /// Windows are this share of the pixel's light wide open where no light is expected.
 constexpr float kWindowFloor = 0.02f;
 

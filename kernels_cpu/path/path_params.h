@@ -42,8 +42,8 @@ struct PathParams {
     TrackGrid grid;         ///< majorants of src/methods/path/path_blocks.h
     float extent[3];        ///< box edges, m
     std::int32_t channels;  ///< 1 (achromatic media) or 3
-    std::int32_t media;     ///< on the grid, 1..kMostMedia
-    Optics optics[kMostMedia];
+    std::int32_t media;     ///< on the grid, 1..kMaxMedia
+    Optics optics[kMaxMedia];
     const float* parts;  ///< [medium - 1][voxel]: densities of media 1, 2 ...
 
     CameraParams camera;

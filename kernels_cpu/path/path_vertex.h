@@ -13,7 +13,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Reflections after which a path is given up, where solids reflect all light.
-constexpr std::int32_t kMostBounces = 1 << 14;
+constexpr std::int32_t kMaxBounces = 1 << 14;
 
 /// Of the shadow rays that leave the lanes of `m`, leave out by luck those that would bring little:
 /// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
@@ -214,7 +214,7 @@ PILEUS_FN void reflect_at_solid(PathLanes<W, NC, K>& s, const PathParams& k, Pat
             s, k, m, 0, [&](const Vec<T>& way) { return dot(way, n); },
             [&](const Vec<T>& way, M<W>) { return max_(dot(way, n), T{}) * kInvPi; });
     // Black surfaces end paths; between white ones a path would go on for ever.
-    const M<W> endless = m & (s.bounces >= kMostBounces);
+    const M<W> endless = m & (s.bounces >= kMaxBounces);
     tally.terminated += count_bits(bits_of(endless));
     end_paths(s, endless | (m & lnot(heaviest(s) > 0.0f)));
 }

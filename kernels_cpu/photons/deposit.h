@@ -174,15 +174,15 @@ template <bool Cells, int W, int NC>
 PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
                             const DepositQueue<W, NC>& q, std::int32_t at) {
     using T = F<W>;
-    constexpr int kMost = kMaxBands * kMaxBands + kMaxAxisDegrees;
+    constexpr int kMax = kMaxBands * kMaxBands + kMaxAxisDegrees;
     const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
-    T y[kMost];
+    T y[kMax];
     const int count = direction_numbers<Cells>(k, d, y);
     const bool lamps = keeps_lamp_axes(k);
     if (lamps) axis_values(k.bands, k.axis_degrees, load<T>(q.along + at), y + count);
     const int numbers = lamps ? count + k.axis_degrees : count;
     const std::int32_t items = q.count - at < W ? q.count - at : W;
-    I<W> quanta[kMost];
+    I<W> quanta[kMax];
     for (int c = 0; c < NC; ++c) {
         const T share = load<T>(q.share[c] + at);
         for (int i = 0; i < numbers; ++i) quanta[i] = quantise(share * y[i], k.scale);

@@ -10,7 +10,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 constexpr int kPackedDigits = 11;  ///< beside the sign
-constexpr int kMostPacked = 96;    ///< numbers of a set
+constexpr int kMaxPacked = 96;     ///< numbers of a set
 
 /// Loops over so many numbers are known to the compiler where N > 0.
 template <int N>
@@ -35,7 +35,7 @@ template <int N>
 PILEUS_FN void add_set(const std::uint8_t* packed, int numbers, int coarser, std::int32_t sign,
                        std::int64_t* total) {
     const int n = count_of<N>(numbers);
-    std::int32_t q[N > 0 ? N : kMostPacked];
+    std::int32_t q[N > 0 ? N : kMaxPacked];
     const int up = unpack_set<N>(packed, numbers, q) - coarser;
     if (up < 0) {
         const int down = -up < 20 ? -up : 20;
@@ -57,10 +57,10 @@ PILEUS_FN int round_set(const std::int64_t* v, int numbers, int length, double s
     const int n = count_of<N>(numbers);
     const int power = length > kPackedDigits ? length - kPackedDigits : 0;
     const double factor = scale / double(std::uint64_t(1) << power);
-    constexpr std::int32_t kMost = (1 << kPackedDigits) - 1;
+    constexpr std::int32_t kMax = (1 << kPackedDigits) - 1;
     const auto rounded = [&](double x) {
         const std::int32_t whole = std::int32_t(x + (x < 0 ? -0.5 : 0.5));
-        return whole > kMost ? kMost : (whole < -kMost ? -kMost : whole);
+        return whole > kMax ? kMax : (whole < -kMax ? -kMax : whole);
     };
     // Machines turn 32 bits into doubles side by side; the double is the same.
     if (length < 32)
@@ -76,8 +76,8 @@ template <int N>
 PILEUS_FN void pack_set(const PackParams& k, std::int64_t* sums, std::uint8_t* packed,
                         std::int64_t* total) {
     const int n = count_of<N>(k.numbers), half = (n + 1) / 2;
-    std::int64_t v[N > 0 ? N : kMostPacked];
-    std::int32_t q[(N > 0 ? N : kMostPacked) + 1];
+    std::int64_t v[N > 0 ? N : kMaxPacked];
+    std::int32_t q[(N > 0 ? N : kMaxPacked) + 1];
     for (int i = 0; i < n; ++i) v[i] = sums[i], sums[i] = 0;
     for (int b = 1; b < k.blocks; ++b) {
         std::int64_t* more = sums + std::uint64_t(b) * k.block_stride;

@@ -31,8 +31,8 @@ enum LightKind : std::int32_t {
 struct TraceParams {
     TrackGrid grid;         ///< its max_events counts tentative collisions and bounces
     std::int32_t channels;  ///< 1 (achromatic media) or 3
-    std::int32_t media;     ///< on the grid, 1..kMostMedia
-    Optics optics[kMostMedia];
+    std::int32_t media;     ///< on the grid, 1..kMaxMedia
+    Optics optics[kMaxMedia];
 
     std::int32_t light;         ///< LightKind
     float direction[3];         ///< of travel, unit; beam only

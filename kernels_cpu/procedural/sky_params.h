@@ -23,20 +23,20 @@ enum NoiseKind : std::int32_t { kNoisePerlin, kNoiseWorley };
 
 /// Edge of the blocks whose largest values are kept, in texels of their level.
 constexpr std::int32_t kNoiseBlock = 4;
-constexpr int kMostNoiseLevels = 10;  ///< 512 texels and all halvings
+constexpr int kMaxNoiseLevels = 10;  ///< 512 texels and all halvings
 
 /// A noise volume ready to be read: per texel one word of four bytes, the values at (x, y),
 /// (x+1, y), (x, y+1), (x+1, y+1), around the ends; levels of halved size behind one another.
 struct NoiseView {
-    const std::int32_t* words;     ///< level of size m from noise_level_start(m) on
-    const std::int32_t* largest;   ///< a byte per block, lowest first; levels as those of texels
-    std::int32_t size, last;       ///< of level 0; number of the last level
-    float per_m;                   ///< tiles per metre
-    float offset[3];               ///< of the origin, in tiles
-    float turn[2];                 ///< cosine and sine from the world's axes to the tile's
-    float share;                   ///< of the blend: gain times weight, over 255; 0: not read
-    float most;                    ///< share times the largest value
-    float lost[kMostNoiseLevels];  ///< variance of share * value that a level has no more
+    const std::int32_t* words;    ///< level of size m from noise_level_start(m) on
+    const std::int32_t* largest;  ///< a byte per block, lowest first; levels as those of texels
+    std::int32_t size, last;      ///< of level 0; number of the last level
+    float per_m;                  ///< tiles per metre
+    float offset[3];              ///< of the origin, in tiles
+    float turn[2];                ///< cosine and sine from the world's axes to the tile's
+    float share;                  ///< of the blend: gain times weight, over 255; 0: not read
+    float most;                   ///< share times the largest value
+    float lost[kMaxNoiseLevels];  ///< variance of share * value that a level has no more
 };
 
 constexpr std::int64_t noise_level_start(std::int64_t m) { return m * m * m / 4; }
@@ -74,9 +74,9 @@ struct SkyParams {
 /// n) of a level lies at x, y = (i, j) times its spacing and an n-th of the layer's height; it is
 /// kept at (i, j) modulo the nodes along an edge, so that it stays where it is while the camera
 /// moves.
-constexpr std::int32_t kMostSkyLightBits = 8;
+constexpr std::int32_t kMaxSkyLightBits = 8;
 constexpr std::int32_t kSkyLightHeights = 32;
-constexpr int kMostSkyLightLevels = 12;
+constexpr int kMaxSkyLightLevels = 12;
 constexpr float kSkyLightUnit = 256;  ///< of optical depths, kept in 16 bits
 struct SkyLightView {
     /// [level][height][y][x]: the node's depth, and in the high half that of the next along x.

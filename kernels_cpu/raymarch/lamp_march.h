@@ -121,7 +121,7 @@ struct ThinRay {
     T rest[3], own[3];  ///< of a step: share of extinction that counts; what it shows, over that
 };
 template <class T>
-PILEUS_FN void thin_step(const LampMarchParams& k, const T (&share)[kMostMedia], T optical,
+PILEUS_FN void thin_step(const LampMarchParams& k, const T (&share)[kMaxMedia], T optical,
                          ThinRay<T>& thin) {
     for (int c = 0; c < 3; ++c) {
         T rest{};
@@ -143,7 +143,7 @@ template <class T>
 PILEUS_FN void add_apart(const LampMarchParams& k, const LampMarchBuffers& b,
                          const LampParams& lamp, const Vec<T>& place, const LampSight<T>& sight,
                          const Vec<T>& d, T most, T tau, T weight, M_of<T> lit,
-                         const T (&share)[kMostMedia], const ThinRay<T>& thin, T (&colour)[3]) {
+                         const T (&share)[kMaxMedia], const ThinRay<T>& thin, T (&colour)[3]) {
     const T turn = one_minus_cosine(d, sight.way);
     const T within = share_in_peak(turn, k.peak_turn);
     const T whole = weight * sight.share * exp_(T{} - tau);
@@ -181,7 +181,7 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
             pace.inside = optical > 0.0f;
             const T weight = seen * one_minus_exp(optical);
             const Vec<T> from = along(ray, t - 0.5f * width);
-            T share[kMostMedia] = {};
+            T share[kMaxMedia] = {};
             for_shares(
                 b.parts, voxels, k.media, density,
                 [&](const float* grid) { return read_density<Constant>(grid, at); },
@@ -226,7 +226,7 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                             colour[c] = colour[c] + select(lit, kept[c], T{}) *
                                                         (k.albedo[0][c] * lamp.light[c]);
                     }
-                    T more[kMostOctaves];
+                    T more[kMaxOctaves];
                     (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
                     for (int i = 0; i < k.media; ++i) {
                         const T phase = min_(phase_density(k.phase[i], turn), most);

@@ -12,25 +12,25 @@ namespace pileus {
 struct LampMarchParams {
     MediumView medium;
     CameraParams camera;
-    std::int32_t media;  ///< on the grid, up to kMostMedia; 0: the ground alone is lit
-    PhaseParams phase[kMostMedia];
-    float albedo[kMostMedia][3];
-    float emission[kMostMedia][3];  ///< as in Optics
-    std::int32_t emits;             ///< 0: none is added
-    Octaves octaves;                ///< of the lamps' light
+    std::int32_t media;  ///< on the grid, up to kMaxMedia; 0: the ground alone is lit
+    PhaseParams phase[kMaxMedia];
+    float albedo[kMaxMedia][3];
+    float emission[kMaxMedia][3];  ///< as in Optics
+    std::int32_t emits;            ///< 0: none is added
+    Octaves octaves;               ///< of the lamps' light
     OctaveDepths octave_depths;
-    float octave_g[kMostMedia][kMostOctaves];          ///< as RaymarchLight has them
-    float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
-    std::int32_t forward;       ///< 1: light scattered forward goes on as if it were not
-    float kept[kMostMedia][3];  ///< and so much of what is scattered does, as RaymarchLight has it
+    float octave_g[kMaxMedia][kMaxOctaves];          ///< as RaymarchLight has them
+    float octave_source[kMaxMedia][kMaxOctaves][3];  ///< of a unit of light; from octave 1 on
+    std::int32_t forward;      ///< 1: light scattered forward goes on as if it were not
+    float kept[kMaxMedia][3];  ///< and so much of what is scattered does, as RaymarchLight has it
     std::int32_t beam_sets;    ///< as MarchParams has them, of one medium: what stays in the lamps'
     std::int32_t beam_points;  ///< beams; 1: there are tables of points, too
     float beam_rest[3];
     /// Light scattered more than once comes from discrete ordinates: channels of what is left where
     /// turns within the peak of a phase function do not count, 1 or 3; 0: it does not.
     std::int32_t ordinates;
-    float rest[kMostMedia][3];  ///< as OrdinatesMarchParams has it
-    float peak_turn;            ///< 1 - cos of the peak's width
+    float rest[kMaxMedia][3];  ///< as OrdinatesMarchParams has it
+    float peak_turn;           ///< 1 - cos of the peak's width
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp

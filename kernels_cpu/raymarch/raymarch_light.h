@@ -36,7 +36,7 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     const T leave = field_clip(field, Ray<T>{place, d}).leave;
     // All steps alike and to the end, or so many that grow.
     const bool whole = light.steps == 0;
-    const float most = k.medium.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
+    const float most = k.medium.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kLeastStep;
     T width = max_(all<T>(light.first_m), leave * most);
     if (!whole) width = light.first_m > 0 ? all<T>(light.first_m) : leave / light.series;
     SunDepths<T> sum{};
@@ -139,7 +139,7 @@ PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Field
 /// Shares of the light in octave n of the way's light, from octave 1 on, where its depth is `tau`;
 /// returns the mean of all octaves with `first`, by their shares.
 template <class T>
-PILEUS_FN T octave_light(const Octaves& o, T tau, T first, T factor, T (&light)[kMostOctaves]) {
+PILEUS_FN T octave_light(const Octaves& o, T tau, T first, T factor, T (&light)[kMaxOctaves]) {
     float share = 1.0f, all_shares = 1.0f, thinner = 1.0f;
     T sum = first;
     for (int n = 1; n < o.count; ++n) {
@@ -154,7 +154,7 @@ PILEUS_FN T octave_light(const Octaves& o, T tau, T first, T factor, T (&light)[
 /// What absorption leaves of the octaves of medium i in channel c, where it is known for that one.
 template <class T>
 PILEUS_FN void absorb_octaves(const Octaves& o, const OctaveDepths& depths, int i, int c, T tau,
-                              T factor, T (&light)[kMostOctaves]) {
+                              T factor, T (&light)[kMaxOctaves]) {
     if (c >= depths.channels) return;
     for (int n = 1; n < o.count; ++n) light[n] = exp_(T{} - tau * depths.thinner[i][n][c]) * factor;
 }

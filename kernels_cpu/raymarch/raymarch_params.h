@@ -60,7 +60,7 @@ struct StepParams {
 /// Directions that a fuzzy way to the sun takes in turn.
 constexpr int kLightTurns = 16;
 
-constexpr int kMostOctaves = 8;
+constexpr int kMaxOctaves = 8;
 
 /// Several scatterings as weaker and weaker copies of the first (Wrenninge, Kulla, Lundqvist 2013):
 /// octave n sees extinction^n of the extinction, has share^n of the light and a phase function
@@ -74,7 +74,7 @@ struct Octaves {
 /// than that by which light fades that was scattered often.
 struct OctaveDepths {
     std::int32_t channels;  ///< of these; 0: no medium absorbs, all are octaves.extinction^n
-    float thinner[kMostMedia][kMostOctaves][3];
+    float thinner[kMaxMedia][kMaxOctaves][3];
 };
 
 /// How sunlight finds its way to a place.
@@ -93,8 +93,8 @@ struct RaymarchLight {
     std::int32_t channels;  ///< 1, or 3 where the light kept differs by channel
     std::int32_t forward;   ///< 1: some light is kept
     Octaves octaves;
-    float octave_g[kMostMedia][kMostOctaves];  ///< of Henyey-Greenstein; from octave 1 on
-    float kept[kMostMedia][3];  ///< share of scattered light that goes on as if unscattered
+    float octave_g[kMaxMedia][kMaxOctaves];  ///< of Henyey-Greenstein; from octave 1 on
+    float kept[kMaxMedia][3];  ///< share of scattered light that goes on as if unscattered
 };
 
 /// Skylight on nodes: sets of brightness, each of one colour.
@@ -105,23 +105,23 @@ struct RaymarchSky {
 };
 
 /// Coarser grids of the density, each of half the cells along each axis.
-constexpr int kMostLevels = 12;
+constexpr int kMaxLevels = 12;
 
 struct RaymarchParams {
     MediumView medium;
-    std::int32_t levels;            ///< coarser grids; 0: none
-    MediumView level[kMostLevels];  ///< of them, the finest first
-    CameraParams camera;            ///< of the whole picture
-    PixelLattice lattice;           ///< the pixels of it that are marched
-    std::int32_t media;             ///< on the grid, 1..kMostMedia
-    std::int32_t rule;              ///< a RaymarchRule
-    PhaseParams phase[kMostMedia];
-    float phase_scale[kMostMedia];  ///< 1, or one over the phase function's peak
+    std::int32_t levels;           ///< coarser grids; 0: none
+    MediumView level[kMaxLevels];  ///< of them, the finest first
+    CameraParams camera;           ///< of the whole picture
+    PixelLattice lattice;          ///< the pixels of it that are marched
+    std::int32_t media;            ///< on the grid, 1..kMaxMedia
+    std::int32_t rule;             ///< a RaymarchRule
+    PhaseParams phase[kMaxMedia];
+    float phase_scale[kMaxMedia];  ///< 1, or one over the phase function's peak
     float to_sun[3];
-    float sun_source[kMostMedia][3];                   ///< irradiance times albedo
-    float octave_source[kMostMedia][kMostOctaves][3];  ///< that of octave n, its share in it
+    float sun_source[kMaxMedia][3];                  ///< irradiance times albedo
+    float octave_source[kMaxMedia][kMaxOctaves][3];  ///< that of octave n, its share in it
     OctaveDepths octave_depths;
-    float albedo[kMostMedia][3];
+    float albedo[kMaxMedia][3];
     RaymarchSky sky;
     std::int32_t sunlit;  ///< 0: all of them are zero
     float ambient[3];     ///< emission over extinction, everywhere in the media

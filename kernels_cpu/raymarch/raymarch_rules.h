@@ -14,9 +14,9 @@ inline namespace PILEUS_ISA {
 /// What does not change along a ray.
 template <class T>
 struct RayLight {
-    T phase[kMostMedia];                 ///< of each medium towards the camera
-    T turn;                              ///< 1 - cos of the angle by which sunlight is scattered
-    T octave[kMostMedia][kMostOctaves];  ///< phase functions of the octaves from 1 on
+    T phase[kMaxMedia];                ///< of each medium towards the camera
+    T turn;                            ///< 1 - cos of the angle by which sunlight is scattered
+    T octave[kMaxMedia][kMaxOctaves];  ///< phase functions of the octaves from 1 on
 };
 template <class T>
 PILEUS_FN RayLight<T> ray_light(const RaymarchParams& k, const Vec<T>& d) {
@@ -24,7 +24,7 @@ PILEUS_FN RayLight<T> ray_light(const RaymarchParams& k, const Vec<T>& d) {
     const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     r.turn = one_minus_cosine(to_sun, d);
     const T most = most_density(k.camera, d);
-    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+    for (int i = 0; i < kMaxMedia && i < k.media; ++i) {
         r.phase[i] = min_(phase_density(k.phase[i], r.turn) * k.phase_scale[i], most);
         for (int n = 1; n < k.light.octaves.count; ++n)
             r.octave[i][n] = min_(hg_density(all<T>(k.light.octave_g[i][n]), r.turn), most);
@@ -64,7 +64,7 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     const bool emits = k.ambient[0] > 0 || k.ambient[1] > 0 || k.ambient[2] > 0;
     if (emits) s.share = all<T>(1.0f);
     if (k.sunlit == 0 && k.sky.sets == 0) return s;
-    T light[3] = {}, glow[3] = {}, more[kMostOctaves] = {}, tau{};
+    T light[3] = {}, glow[3] = {}, more[kMaxOctaves] = {}, tau{};
     if (k.sunlit != 0)
         tau =
             sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);

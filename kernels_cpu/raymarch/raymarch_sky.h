@@ -91,7 +91,7 @@ PILEUS_FN void sky_light_row(const RaymarchParams& k, const SkyParams& sky,
                              std::int64_t* counts) {
     using T = F<W>;
     const SkyMedium field{&sky, nullptr};
-    std::int32_t depth[(1 << kMostSkyLightBits) + 1 + W];
+    std::int32_t depth[(1 << kMaxSkyLightBits) + 1 + W];
     const float spacing = view.spacing_m * float(1 << row.level);
     const float share = float(row.height) * (1.0f / float(kSkyLightHeights - 1));
     for (std::int32_t i = row.first; i <= row.last; i += W) {

@@ -78,7 +78,7 @@ PILEUS_FN void turn_sky(const SkyTurnParams& k, const SkyTurnBuffers& b, std::ui
     using T = F<W>;
     const std::size_t nodes =
         std::size_t(k.grid.size[0]) * std::size_t(k.grid.size[1]) * std::size_t(k.grid.size[2]);
-    constexpr float kMost = float(kSkyPhaseSteps) - 0.001f;
+    constexpr float kMax = float(kSkyPhaseSteps) - 0.001f;
     for (std::uint32_t n = begin; n < end; n += std::uint32_t(W)) {
         const int count = end - n < std::uint32_t(W) ? int(end - n) : W;
         const float* seen = b.seen + n;
@@ -87,7 +87,7 @@ PILEUS_FN void turn_sky(const SkyTurnParams& k, const SkyTurnBuffers& b, std::ui
         for (int p = 0; p < kSkyParts; ++p) {
             const float* d = k.middles[p];
             const T cosine = d[0] * w.way.x + d[1] * w.way.y + d[2] * w.way.z;
-            const T at = min_(max_((cosine + 1.0f) * (0.5f * kSkyPhaseSteps), T{}), all<T>(kMost));
+            const T at = min_(max_((cosine + 1.0f) * (0.5f * kSkyPhaseSteps), T{}), all<T>(kMax));
             const auto step = to_int(at);
             const T low = gather(b.phase, step), high = gather(b.phase + 1, step);
             const T own = low + (high - low) * (at - to_float(step));

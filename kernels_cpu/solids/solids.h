@@ -179,7 +179,7 @@ PILEUS_FN std::int32_t solid_copies(const SolidsView& s, const float (&o)[3], co
         c.cell[a] = whole_below(place);
     }
     const double before = 0x1p-10 * (c.period[0] < c.period[1] ? c.period[0] : c.period[1]);
-    for (int n = 0; n < kMostSolidCopies && at <= double(far); ++n) {
+    for (int n = 0; n < kMaxSolidCopies && at <= double(far); ++n) {
         const double start = at > before ? at - before : 0.0;
         float from[3];
         for (int a = 0; a < 2; ++a)

@@ -14,7 +14,7 @@ namespace pileus {
 namespace {
 
 constexpr const char* kMagic = "pileus-blocks";
-constexpr int kMostSide = 1 << 14;
+constexpr int kMaxSide = 1 << 14;
 
 /// Words of a text, comments left out, with the line that each stands on.
 struct Words {
@@ -67,10 +67,10 @@ Status read_head(Words& in, BlockSums& b) {
     PILEUS_TRY(in.expect(kMagic));
     PILEUS_TRY(in.number("version", 1, 1, version));
     PILEUS_TRY(in.expect("picture"));
-    PILEUS_TRY(in.number("width", 1, kMostSide, b.width));
-    PILEUS_TRY(in.number("height", 1, kMostSide, b.height));
+    PILEUS_TRY(in.number("width", 1, kMaxSide, b.width));
+    PILEUS_TRY(in.number("height", 1, kMaxSide, b.height));
     PILEUS_TRY(in.expect("side"));
-    return in.number("side", 1, kMostSide, b.side);
+    return in.number("side", 1, kMaxSide, b.side);
 }
 
 Status read_block(Words& in, double& passes, BlockSum* sums) {

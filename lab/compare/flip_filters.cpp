@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/angles.h"
 #include "src/base/powers.h"
 
 namespace pileus {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLog2e = 1.44269504088896340736;
 /// White point D65 as FLIP states it.
 constexpr double kWhite[3] = {0.950428545, 1.0, 1.088900371};
@@ -43,7 +43,7 @@ double compress(double t) {
 }
 
 /// Sensitivity of an eye to contrast as a Gaussian over distance in degrees, up to a factor.
-double sensitivity(double x, double b) { return exp2_of(-kPi * kPi * x * x / b * kLog2e); }
+double sensitivity(double x, double b) { return exp2_of(-kPi64 * kPi64 * x * x / b * kLog2e); }
 
 void divide(std::vector<double>& weights, double sum) {
     for (double& w : weights) w /= sum;
@@ -88,10 +88,11 @@ FlipFilters make_flip_filters(double pixels_per_degree) {
     constexpr double kY = 0.0047, kCx = 0.0053, kCz1 = 0.04, kCz2 = 0.025;
     constexpr double kAmount1 = 34.1, kAmount2 = 13.5;
     FlipFilters f;
-    f.spatial_radius = int(std::ceil(3 * std::sqrt(kCz1 / (2 * kPi * kPi)) * pixels_per_degree));
+    f.spatial_radius =
+        int(std::ceil(3 * std::sqrt(kCz1 / (2 * kPi64 * kPi64)) * pixels_per_degree));
     // Each Gaussian of Cz is a product of two along x and y: give either the root of its amount.
-    const double root1 = std::sqrt(kAmount1 * std::sqrt(kPi / kCz1));
-    const double root2 = std::sqrt(kAmount2 * std::sqrt(kPi / kCz2));
+    const double root1 = std::sqrt(kAmount1 * std::sqrt(kPi64 / kCz1));
+    const double root2 = std::sqrt(kAmount2 * std::sqrt(kPi64 / kCz2));
     for (int i = -f.spatial_radius; i <= f.spatial_radius; ++i) {
         const double x = i / pixels_per_degree;
         f.y.push_back(sensitivity(x, kY));

@@ -10,7 +10,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
 /// Droplets larger than this many effective radii send less than 1e-6 of the light anywhere.
 constexpr double kLargest = 4;
 
@@ -48,7 +47,7 @@ void fill(double x, double index, Coefficients& out) {
     }
     out.a.clear();
     out.b.clear();
-    const SineCosine at = sincos_deg(x * (180 / kPiDouble));
+    const SineCosine at = sincos_deg(x * (180 / kPi64));
     double psi_before = at.cosine, psi = at.sine, chi_before = -at.sine, chi = at.cosine;
     for (std::size_t n = 1; n <= terms; ++n) {
         const double order = double(n);
@@ -122,7 +121,7 @@ MieResult mie_cloud(const MieCloud& cloud, const std::vector<double>& angle_deg)
     std::vector<double> cosine;
     cosine.reserve(angle_deg.size());
     for (double angle : angle_deg) cosine.push_back(sincos_deg(angle).cosine);
-    const double scale = 2 * kPiDouble * cloud.effective_radius_um / cloud.wavelength_um;
+    const double scale = 2 * kPi64 * cloud.effective_radius_um / cloud.wavelength_um;
     double scattering = 0, forward = 0, area = 0;
     Coefficients c;
     const int count = int(kLargest * scale / cloud.size_step);
@@ -139,7 +138,7 @@ MieResult mie_cloud(const MieCloud& cloud, const std::vector<double>& angle_deg)
     result.extinction_efficiency = 2 * scattering / area;
     result.mean_cosine = forward / scattering;
     // (|S1|^2 + |S2|^2) / (2 k^2 C), with C k^2 = 2 pi times the sum.
-    for (double& v : result.density) v /= 4 * kPiDouble * scattering;
+    for (double& v : result.density) v /= 4 * kPi64 * scattering;
     return result;
 }
 

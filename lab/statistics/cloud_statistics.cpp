@@ -5,17 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/angles.h"
+
 namespace pileus {
 namespace {
-
-constexpr double kPi2 = 6.283185307179586;
 
 /// Adds the power of one row at wave numbers 1 to n/2.
 void add_power(const std::vector<double>& row, std::vector<double>& power) {
     const std::size_t n = row.size();
     std::vector<double> cosine(n), sine(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const double turn = kPi2 * double(i) / double(n);
+        const double turn = kTwoPi64 * double(i) / double(n);
         cosine[i] = std::cos(turn), sine[i] = std::sin(turn);
     }
     for (std::size_t k = 1; k <= n / 4; ++k) {

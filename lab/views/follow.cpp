@@ -4,6 +4,7 @@
 
 #include "lab/views/views.h"
 #include "platform/fp_mode.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/methods/scenery.h"
 #include "src/session/run_context.h"
 #include "src/world/place_scene.h"
@@ -38,7 +39,8 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
               PhotonWay& way) {
     const FpModeGuard guard;
     Scene placed = scene;
-    PILEUS_TRY(place_scene(placed));
+    const std::shared_ptr<WeatherFiles> files = make_weather_files();
+    PILEUS_TRY(place_scene(placed, files.get()));
     Report report;
     Context context;
     if (scene.method != kCollectorsName)
@@ -54,6 +56,7 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     made.report = view_report(*method);
     made.method = std::move(method);
     Scenery scenery(placed);
+    scenery.weather = files;
     Plan plan;
     PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
     return follow(context, scenery.view(0), prepared, light, number, way);

@@ -28,7 +28,7 @@ CellNumbers numbers_of(const GridLightInput& in, std::size_t cell, const float (
     const std::uint64_t set = std::uint64_t(cell) * channels + (channels == 3 ? 1 : 0);
     const std::size_t slots = filled_slots(*in.photons);
     CellNumbers out;
-    double sums[kMostNumbers];
+    double sums[kMaxNumbers];
     for (std::size_t s = 0; s < slots; ++s)
         for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
             slot_sums(in, in.photons->slots[s], l, set, sums);

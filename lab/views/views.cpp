@@ -21,7 +21,7 @@ bool needs_tree(View view) {
 
 CollectorSettings shown_settings(const Scene& scene) {
     CollectorSettings settings = scene.collectors;
-    settings.billboards = true;
+    settings.display.billboards = true;
     return settings;
 }
 
@@ -35,7 +35,7 @@ ViewMethod::ViewMethod(View what, const MethodInputs& inputs)
 Status ViewMethod::check(const Context& context, const FrameView& view) {
     const bool missing = what_ == View::kGradientSlice || what_ == View::kGradient ||
                          what_ == View::kSamples || what_ == View::kIllumination;
-    if (missing && state().settings.camera_closure)
+    if (missing && state().settings.closure.camera)
         return Status::bad_input(
             std::string("--show: ") + name_of(what_) +
             ": closure \"camera\" has no such step, allowed: density-slice, "

@@ -10,9 +10,9 @@ namespace pileus {
 namespace {
 
 constexpr Float3 kSunlight{1.0f, 0.82f, 0.4f};
-constexpr std::uint64_t kMostFollowed = 4000, kShownPhotons = 40, kBrightScatterings = 20;
-constexpr std::size_t kMostPoints = 4096;  // of a path
-constexpr double kTail = 0.12;             // of the box's diagonal, drawn before and after the box
+constexpr std::uint64_t kMaxFollowed = 4000, kShownPhotons = 40, kBrightScatterings = 20;
+constexpr std::size_t kMaxPoints = 4096;  // of a path
+constexpr double kTail = 0.12;            // of the box's diagonal, drawn before and after the box
 
 /// A stretch of a path; nothing where the camera sees none of it.
 void add_stretch(const Drawing& d, const float (&from)[3], const float (&to)[3], const Line& look,
@@ -81,9 +81,9 @@ void follow_some(const Drawing& d, Paths& out) {
     const Line thin{0, 0, 0, 0, 0, d.pixels(1.2), 0.55f, kSunlight};
     const Line wide{0, 0, 0, 0, 0, d.pixels(2.4), 1.0f, kSunlight};
     std::vector<PathPoint> path;
-    while (out.followed < kMostFollowed && out.drawn < kShownPhotons) {
+    while (out.followed < kMaxFollowed && out.drawn < kShownPhotons) {
         const std::uint32_t number = std::uint32_t(out.followed++);
-        follow_photon(in, d.state().lights.lighting.lights.front(), number, kMostPoints, path);
+        follow_photon(in, d.state().lights.lighting.lights.front(), number, kMaxPoints, path);
         std::uint64_t scatterings = 0;
         for (const PathPoint& p : path) scatterings += p.event == PathEvent::kScatter ? 1 : 0;
         if (scatterings == 0) continue;

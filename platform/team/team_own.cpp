@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kWithin = 1;
 constexpr std::uint32_t kFree = 1u << 16;
 constexpr std::uint32_t kClosed = 1u << 31;
-constexpr std::uint32_t kMostMembers = (1u << 15) - 1;
+constexpr std::uint32_t kMaxMembers = (1u << 15) - 1;
 
 std::uint32_t members_within(std::uint32_t gate) { return gate % kFree; }
 std::uint32_t members_free(std::uint32_t gate) { return (gate & ~kClosed) / kFree; }
@@ -48,7 +48,7 @@ OwnTeam::~OwnTeam() {
 }
 
 bool OwnTeam::grow(std::uint32_t count) {
-    if (count > kMostMembers) count = kMostMembers;
+    if (count > kMaxMembers) count = kMaxMembers;
     if (members_.size() >= count) return true;
     const NoSignals guard;
     try {

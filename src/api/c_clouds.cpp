@@ -19,9 +19,9 @@ pileus_code no_clouds(pileus_error* error) {
 Status place_all(const pileus_cloud* places, std::uint32_t count, Clouds& clouds) {
     if (count > 0 && places == nullptr)
         return Status::bad_input("places: null, allowed: as many as count says");
-    if (count > kMostClouds)
+    if (count > kMaxClouds)
         return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to " +
-                                 std::to_string(kMostClouds));
+                                 std::to_string(kMaxClouds));
     std::vector<CloudPlace> own(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         pileus_cloud given;

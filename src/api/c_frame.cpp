@@ -9,7 +9,7 @@
 namespace pileus::api {
 namespace {
 
-constexpr float kMostStops = 100;
+constexpr float kMaxStops = 100;
 
 Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
     if (f.format > PILEUS_RGBA32F)
@@ -18,7 +18,7 @@ Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& tar
     if (f.blend > PILEUS_MEDIA)
         return Status::bad_input("frame.blend: " + std::to_string(f.blend) +
                                  ", allowed: PILEUS_REPLACE, PILEUS_OVER, PILEUS_MEDIA");
-    if (!(f.exposure_stops >= -kMostStops && f.exposure_stops <= kMostStops))
+    if (!(f.exposure_stops >= -kMaxStops && f.exposure_stops <= kMaxStops))
         return Status::bad_input("frame.exposure_stops: " + number_text(double(f.exposure_stops)) +
                                  ", allowed: -100 to 100");
     target.has_colour = f.colour != nullptr;

@@ -105,11 +105,11 @@ Status set_sky(const pileus_sky& given, Session& session) {
     sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
     sky.map_rotation_deg = given.map_rotation_deg;
     const std::uint64_t columns = given.map_size[0], rows = given.map_size[1];
-    constexpr std::uint64_t kMostRows = 8192;
-    if (columns != 2 * rows || rows > kMostRows)
+    constexpr std::uint64_t kMaxRows = 8192;
+    if (columns != 2 * rows || rows > kMaxRows)
         return Status::bad_input("sky.map_size: " + std::to_string(columns) + " x " +
                                  std::to_string(rows) + ", allowed: columns = 2 rows, at most " +
-                                 std::to_string(2 * kMostRows) + " x " + std::to_string(kMostRows) +
+                                 std::to_string(2 * kMaxRows) + " x " + std::to_string(kMaxRows) +
                                  "; 0 x 0: no map");
     if (given.present == 0 || columns == 0) return session.set_sky(sky, nullptr, false);
     if (given.map == nullptr) {
@@ -282,9 +282,9 @@ pileus_code pileus_session_set_lights(pileus_session* session, const pileus_ligh
     return call(*session, error, [&]() -> Status {
         if (count > 0 && lights == nullptr)
             return Status::bad_input("lights: null, allowed: as many as `count`");
-        if (count > kMostLights)
+        if (count > kMaxLights)
             return Status::bad_input("lights: " + std::to_string(count) + ", allowed: at most " +
-                                     std::to_string(kMostLights));
+                                     std::to_string(kMaxLights));
         std::vector<LightSettings> own(count);
         for (std::size_t i = 0; i < own.size(); ++i) {
             pileus_light given;

@@ -5,7 +5,7 @@
 namespace pileus::api {
 namespace {
 
-static_assert(kMostWorkLevels + 2 <= 16, "own_times has room for the governor's");
+static_assert(kMaxWorkLevels + 2 <= 16, "own_times has room for the governor's");
 
 pileus_work give_work(const FrameWork& work) {
     pileus_work out{};
@@ -44,7 +44,7 @@ Governor take_governor(const pileus_governor& given) {
     out.frames = given.own_counts[0];
     out.spare = given.own_counts[1];
     for (std::size_t i = 0; i < 2; ++i) out.recent_s[i] = given.own_times[i];
-    for (std::size_t i = 0; i < kMostWorkLevels; ++i) out.cost_s[i] = given.own_times[2 + i];
+    for (std::size_t i = 0; i < kMaxWorkLevels; ++i) out.cost_s[i] = given.own_times[2 + i];
     return out;
 }
 
@@ -53,7 +53,7 @@ void give_governor(const Governor& governor, pileus_governor& out) {
     out.own_counts[0] = governor.frames;
     out.own_counts[1] = governor.spare;
     for (std::size_t i = 0; i < 2; ++i) out.own_times[i] = governor.recent_s[i];
-    for (std::size_t i = 0; i < kMostWorkLevels; ++i) out.own_times[2 + i] = governor.cost_s[i];
+    for (std::size_t i = 0; i < kMaxWorkLevels; ++i) out.own_times[2 + i] = governor.cost_s[i];
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ Status take_particles(const pileus_density& density, const std::string& where,
                       const MediumSettings& medium, MediumValues& taken, HostParticles& host) {
     pileus_particles given;
     if (!take(density.particles, given)) return no_struct("particles");
-    if (!is_particle_format(medium.format))
+    if (!is_particle_format(medium.source.format))
         return Status::bad_input(where +
                                  "the scene's medium is no file of particles, allowed: "
                                  "density = \"host.ply\"");
@@ -94,12 +94,12 @@ Status take_density(const pileus_density& given, std::uint32_t at, const Scene& 
     if (given.particles != nullptr) return take_particles(given, where, medium, taken, host);
     std::uint64_t cells = 1;
     for (const std::uint32_t n : given.size) {
-        PILEUS_TRY(check_number(where.c_str(), "size", n, range_of(&MediumSettings::raw_size),
+        PILEUS_TRY(check_number(where.c_str(), "size", n, range_of(&MediumFile::raw_size),
                                 " along each axis"));
         cells *= n;
     }
     if (given.values == nullptr) return Status::bad_input(where + "values: null, allowed: cells");
-    if (medium.density.empty() || !medium.has_bounds)
+    if (medium.density.empty() || !medium.box.has_bounds)
         return Status::bad_input(where +
                                  "the scene's medium is a file or has no bounds_m, allowed: "
                                  "density = \"uniform:box\" and bounds_m");

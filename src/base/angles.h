@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sine, cosine and tangent of degrees in double: libm's bits differ between machines.
+// Pi, and sine and cosine of degrees, in double: libm's bits differ between machines.
 // in: degrees -> out: within 2^-50, exact at multiples of 90.
 // Taylor series after reduction to |angle| <= 45 degrees; only + - * /.
 #pragma once
 
 namespace pileus {
+
+constexpr double kPi64 = 3.14159265358979323846, kTwoPi64 = 2 * kPi64;
 
 struct SineCosine {
     double sine, cosine;

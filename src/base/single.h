@@ -46,7 +46,7 @@ inline double least_distance(const Double3& a, const Double3& b) {
 }
 
 /// Most extinction where a medium is densest, 1/m: optical depths through any box are numbers.
-constexpr double kMostSigma = 1e24;
+constexpr double kMaxSigma = 1e24;
 /// Less extinction than this, or optical depth through a whole box, is none.
 constexpr double kLeastSigma = 0x1p-100;
 

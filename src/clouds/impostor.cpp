@@ -11,13 +11,13 @@ namespace pileus {
 namespace {
 
 /// Texels of a side, at the most.
-constexpr int kMostTexels = 2048;
+constexpr int kMaxTexels = 2048;
 /// Pixels around one that hides little in which another may tell how far the cloud is.
 constexpr int kThinPixels = 12;
 
 int texel_count(double tangents, double per_unit) {
     const double n = tangents * per_unit;
-    return n > kMostTexels ? kMostTexels : n < 1 ? 1 : int(n + 0.999);
+    return n > kMaxTexels ? kMaxTexels : n < 1 ? 1 : int(n + 0.999);
 }
 
 /// Premultiplied light through the shadow of others, and depths behind the plane.

@@ -172,11 +172,11 @@ std::enable_if_t<std::is_enum_v<T>> field(A& a, T& v) {
 }
 
 /// Texts and lists of structs stay within what a scene may have.
-constexpr std::uint64_t kMostText = 1u << 16, kMostRows = 4096;
+constexpr std::uint64_t kMaxText = 1u << 16, kMaxRows = 4096;
 
 template <class A>
 void field(A& a, std::string& v) {
-    a.count(v, kMostText);
+    a.count(v, kMaxText);
     for (std::size_t i = 0; i < v.size() && a.good(); ++i) {
         std::uint64_t word = std::uint8_t(v[i]);
         a.word(word, 1);
@@ -202,7 +202,7 @@ void field(A& a, T (&v)[N]) {
 /// Members of structs that are not yet declared here are found where this is used.
 template <class A, class T>
 void field(A& a, std::vector<T>& v) {
-    a.count(v, kMostRows);
+    a.count(v, kMaxRows);
     for (std::size_t i = 0; i < v.size() && a.good(); ++i) field(a, v[i]);
 }
 

@@ -80,10 +80,11 @@ void fields(A& a, CloudSettings& v) {
 }
 template <class A>
 void fields(A& a, MediumSettings& v) {
-    all(a, v.density, v.file, v.first_frame, v.format, v.grid, v.raw_type, v.raw_size,
-        v.raw_big_endian, v.particles, v.has_bounds, v.bounds_m, v.resolution, v.shape_seed, v.sky,
-        v.cloud, v.extinction_per_m, v.extinction_scale, v.albedo, v.emission, v.phase, v.periodic,
-        v.constant, v.transfer, v.y_up);
+    all(a, v.density, v.source.file, v.source.first_frame, v.source.format, v.source.grid,
+        v.source.raw_type, v.source.raw_size, v.source.raw_big_endian, v.particles,
+        v.box.has_bounds, v.box.bounds_m, v.box.resolution, v.shape_seed, v.sky, v.cloud,
+        v.optics.extinction_per_m, v.optics.extinction_scale, v.optics.albedo, v.optics.emission,
+        v.optics.phase, v.box.periodic, v.box.constant, v.optics.transfer, v.source.y_up);
 }
 template <class A>
 void fields(A& a, UpsampleSettings& v) {
@@ -91,11 +92,13 @@ void fields(A& a, UpsampleSettings& v) {
 }
 template <class A>
 void fields(A& a, CollectorSettings& v) {
-    all(a, v.photons, v.generations, v.bands, v.samples, v.local_tracking, v.lobe_closure,
-        v.camera_closure, v.cell_voxels, v.paper, v.billboards, v.guided_nodes, v.directions,
-        v.compositor, v.rejection_sampler, v.variance_field, v.variance_radius, v.density_range,
-        v.peak_deg, v.influence_radius, v.radius_factor, v.axis_degrees, v.first_order_split,
-        v.window, v.thin, v.light_refresh, v.accumulation);
+    all(a, v.photons, v.generations, v.closure.bands, v.placement.samples, v.local_tracking,
+        v.closure.lobe, v.closure.camera, v.closure.cell_voxels, v.paper, v.display.billboards,
+        v.display.guided_nodes, v.display.directions, v.display.compositor,
+        v.placement.rejection_sampler, v.placement.variance_field, v.placement.variance_radius,
+        v.placement.density_range, v.peak_deg, v.placement.influence_radius,
+        v.display.radius_factor, v.closure.axis_degrees, v.first_order_split, v.closure.window,
+        v.thin, v.light_refresh, v.accumulation);
 }
 template <class A>
 void fields(A& a, PhotonGridSettings& v) {
@@ -114,12 +117,14 @@ void fields(A& a, FilterSettings& v) {
 }
 template <class A>
 void fields(A& a, RaymarchSettings& v) {
-    all(a, v.integrator, v.steps, v.spacing, v.first_step_m, v.growth, v.stretch, v.forward, v.many,
-        v.automatic, v.ordinates, v.octaves, v.octave_extinction, v.octave_share,
-        v.octave_anisotropy, v.cone_deg, v.forward_share, v.light, v.light_steps,
-        v.light_first_step_m, v.light_growth, v.sky_ambient, v.detail, v.light_cone, v.jitter,
-        v.jitter_share, v.grid_lock_m, v.powder, v.powder_strength, v.ambient, v.stop_below, v.thin,
-        v.light_refresh, v.peak_phase);
+    all(a, v.march.integrator, v.march.steps, v.march.spacing, v.march.first_step_m, v.march.growth,
+        v.march.stretch, v.scattering.forward, v.scattering.many, v.scattering.automatic,
+        v.scattering.ordinates, v.scattering.octaves, v.scattering.octave_extinction,
+        v.scattering.octave_share, v.scattering.octave_anisotropy, v.scattering.cone_deg,
+        v.scattering.forward_share, v.light.kind, v.light.steps, v.light.first_step_m,
+        v.light.growth, v.light.sky_ambient, v.march.detail, v.light.cone, v.march.jitter,
+        v.march.jitter_share, v.march.grid_lock_m, v.look.powder, v.look.powder_strength,
+        v.look.ambient, v.march.stop_below, v.thin, v.light.refresh, v.look.peak_phase);
 }
 template <class A>
 void fields(A& a, OpticalDepthSettings& v) {

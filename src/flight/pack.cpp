@@ -48,7 +48,7 @@ void fields(A& a, Head& v) {
 }
 
 /// Numbers of the tables that the media point to: one more than the store's, 0 for none.
-void number_tables(const Medium& medium, std::array<std::uint64_t, kMostMedia>& numbers) {
+void number_tables(const Medium& medium, std::array<std::uint64_t, kMaxMedia>& numbers) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         numbers[i] = 0;
         for (std::size_t k = 0; k < medium.phases.size(); ++k)
@@ -86,7 +86,7 @@ Status check_packable(const Scene& scene) {
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");
     if (is_of_collectors(method_column(scene)) &&
-        scene.collectors.compositor != Compositor::kBuiltin)
+        scene.collectors.display.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
     if (scene.method == "path" && scene.path.importance)
         return refuse(scene, "path.importance", "not packed", "false");
@@ -107,7 +107,7 @@ bool is_whole(const NoiseTexture& noise, const NoiseView& view) {
     if (noise.words.size() == 0) return view.share == 0;
     const std::int64_t size = noise.size;
     return is_within(noise.size, 1, 512) && view.size == noise.size &&
-           is_within(view.last, 0, kMostNoiseLevels - 1) &&
+           is_within(view.last, 0, kMaxNoiseLevels - 1) &&
            std::int64_t(noise.words.size()) == noise_words(size) &&
            std::int64_t(noise.largest.size()) * 4 >= noise_words(noise_blocks(noise.size));
 }
@@ -126,7 +126,7 @@ bool is_whole(const Medium& m) {
         if (!is_within(m.grid.size[a], 1, 4096) || m.volume.size[a] != m.grid.size[a] ||
             !(m.grid.cell_m[a] > 0) || !(m.extent_m[a] > 0))
             return false;
-    if (!is_within(m.count, 1, kMostMedia) || !(m.channels == 1 || m.channels == 3)) return false;
+    if (!is_within(m.count, 1, kMaxMedia) || !(m.channels == 1 || m.channels == 3)) return false;
     for (const PhaseStore& store : m.phases)
         if (!store.table.empty() && !is_whole(store)) return false;
     for (const Emitter& e : m.emitters)
@@ -145,7 +145,7 @@ bool is_whole(const World& w) {
 }
 
 /// Puts back what points into arrays.
-bool connect(const std::array<std::uint64_t, kMostMedia>& tables, World& world) {
+bool connect(const std::array<std::uint64_t, kMaxMedia>& tables, World& world) {
     Medium& m = world.medium;
     for (PhaseStore& store : m.phases)
         if (!store.table.empty()) point_into(store);
@@ -221,10 +221,10 @@ Status pack_scene(const Scene& given, const World& world, std::string& bytes) {
     // Names of files say nothing there.
     scene.file = "packed scene";
     for (MediumSettings& medium : scene.media) {
-        medium.file.clear();
-        medium.phase.file.clear();
+        medium.source.file.clear();
+        medium.optics.phase.file.clear();
     }
-    std::array<std::uint64_t, kMostMedia> tables{};
+    std::array<std::uint64_t, kMaxMedia> tables{};
     number_tables(world.medium, tables);
     ArchiveWriter payload;
     // Writing changes nothing of it.
@@ -253,7 +253,7 @@ Status unpack_scene(const void* bytes, std::size_t size, bool in_place, Packed& 
     out.head = head.told;
     out.in_place = in_place && kLittleEndian;
     out.world = std::make_shared<World>();
-    std::array<std::uint64_t, kMostMedia> tables{};
+    std::array<std::uint64_t, kMaxMedia> tables{};
     ArchiveReader reader(begin + kHeadBytes, size - kHeadBytes, in_place);
     all(reader, out.scene, *out.world, tables);
     sky_fields(reader, out.sky);

@@ -36,7 +36,7 @@ void note_frame(double frame_s, Governor& g) {
     const double before = cost;
     cost = first ? middle : cost + kNewest * (middle - cost);
     // Another load, or another view, makes all levels dearer or cheaper alike.
-    for (std::size_t i = 0; i < kMostWorkLevels && !first; ++i)
+    for (std::size_t i = 0; i < kMaxWorkLevels && !first; ++i)
         if (i != g.level) g.cost_s[i] *= cost / before;
 }
 
@@ -45,7 +45,7 @@ void note_frame(double frame_s, Governor& g) {
 std::vector<FrameWork> work_ladder(const FrameWork& whole) {
     std::vector<FrameWork> out{whole};
     const auto add = [&](const FrameWork& next) {
-        if (out.size() < kMostWorkLevels && !(next == out.back())) out.push_back(next);
+        if (out.size() < kMaxWorkLevels && !(next == out.back())) out.push_back(next);
     };
     FrameWork next = whole;
     if (whole.temporal > 0) {
@@ -69,7 +69,7 @@ std::vector<FrameWork> work_ladder(const FrameWork& whole) {
 }
 
 FrameWork govern(const std::vector<FrameWork>& ladder, double frame_s, Governor& g) {
-    const std::size_t last = std::min(ladder.size(), kMostWorkLevels) - 1;
+    const std::size_t last = std::min(ladder.size(), kMaxWorkLevels) - 1;
     if (g.level > last) go_to(last, g);
     if (!(frame_s > 0)) return ladder[g.level];
     // The first frame of a level makes what the level needs; it is no measure of it.

@@ -9,20 +9,20 @@
 
 namespace pileus {
 
-constexpr std::size_t kMostWorkLevels = 12;
+constexpr std::size_t kMaxWorkLevels = 12;
 
 /// What it remembers; cleared before the first frame.
 struct Governor {
-    double target_s = 0;                  ///< wall time that a frame may take; > 0
-    std::uint32_t level = 0;              ///< of the ladder; 0: everything
-    std::uint32_t frames = 0;             ///< at this level
-    std::uint32_t spare = 0;              ///< of these, in a row, with time to spare
-    double recent_s[2] = {};              ///< the last two frames
-    double cost_s[kMostWorkLevels] = {};  ///< of each level; 0: never seen
+    double target_s = 0;                 ///< wall time that a frame may take; > 0
+    std::uint32_t level = 0;             ///< of the ladder; 0: everything
+    std::uint32_t frames = 0;            ///< at this level
+    std::uint32_t spare = 0;             ///< of these, in a row, with time to spare
+    double recent_s[2] = {};             ///< the last two frames
+    double cost_s[kMaxWorkLevels] = {};  ///< of each level; 0: never seen
 };
 
 /// From all of `whole`, the scene's work, to less and less: fewer marched pixels first, then half,
-/// a quarter, ... of the photons, or fewer steps. At most kMostWorkLevels.
+/// a quarter, ... of the photons, or fewer steps. At most kMaxWorkLevels.
 std::vector<FrameWork> work_ladder(const FrameWork& whole);
 
 /// The work of the next frame, after one that took `frame_s`; 0: no frame yet. The median of three

@@ -27,9 +27,9 @@ Status most_grid_samples(const Medium& medium, std::uint64_t& samples) {
     double diagonal = 0;
     for (const double side : medium.extent_m) diagonal += side * side;
     // The first step and the last are parts of one; a ray has 8192 of them at the most.
-    constexpr double kMost = 8192;
+    constexpr double kMax = 8192;
     const double steps = __builtin_sqrt(diagonal) / double(march_step(medium)) + 2;
-    samples = std::uint64_t(steps < kMost ? steps : kMost);
+    samples = std::uint64_t(steps < kMax ? steps : kMax);
     // Steps through constant cells end at their faces, too.
     if (grid.constant)
         for (const int n : grid.size) samples += std::uint64_t(n);

@@ -9,9 +9,11 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
                    Plan& plan) {
     const Scene& scene = *scenery.scene;
     std::shared_ptr<World> own;
-    const HostMedia none, &given = scenery.media != nullptr ? *scenery.media : none;
+    HostMedia given;
     // A flight brings the world that was packed.
     if (world == nullptr) {
+        if (scenery.media != nullptr) given = *scenery.media;
+        given.weather = scenery.weather.get();
         PILEUS_TRY(outline_own_world(scene, row.world, given, context, own));
         world = own;
     }

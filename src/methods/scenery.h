@@ -12,6 +12,8 @@
 
 namespace pileus {
 
+class WeatherFiles;
+
 /// What sessions, verification and flux draw with.
 struct Scenery {
     Scenery() = default;
@@ -24,11 +26,12 @@ struct Scenery {
         depths = shown.output.layer_depth;
     }
 
-    const Scene* scene = nullptr;      ///< its frame is in the media's coordinates
-    const FrameState* rest = nullptr;  ///< of it, but for keys
-    const HostMedia* media = nullptr;  ///< in place of the scene's; null: none
-    bool keyed = false;                ///< keys move it; opened at frame 0
-    bool depths = false;               ///< as FrameView's
+    const Scene* scene = nullptr;           ///< its frame is in the media's coordinates
+    const FrameState* rest = nullptr;       ///< of it, but for keys
+    const HostMedia* media = nullptr;       ///< in place of the scene's; null: none
+    std::shared_ptr<WeatherFiles> weather;  ///< that the scene is read with; null: none is kept
+    bool keyed = false;                     ///< keys move it; opened at frame 0
+    bool depths = false;                    ///< as FrameView's
     std::shared_ptr<const World> world;
     Environment environment;
     Lighting lighting;  ///< of the frame that was lit last

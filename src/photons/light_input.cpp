@@ -52,7 +52,7 @@ void damp_rings(LightInput& in) {
     const int degrees = in.deposit.bands + in.deposit.axis_degrees;
     for (int l = 1; !(in.deposit.peak_turn > 0) && l < degrees; ++l) {
         const double x = double(l) / degrees;
-        const double sinc = sincos_deg(180 * x).sine / (3.14159265358979323846 * x);
+        const double sinc = sincos_deg(180 * x).sine / (kPi64 * x);
         factor[l] = sinc * sinc;
     }
 }
@@ -120,8 +120,8 @@ Status reconstruct_ground(const LightInput& in, const GroundMap& map, int batch,
         whole.push_back(shown.generations / shot);
     }
     // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
-    const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
-                        double(map.per_metre[0]) * double(map.per_metre[1]) /
+    const double unit = in.lighting->ground.albedo / kPi64 * double(map.per_metre[0]) *
+                        double(map.per_metre[1]) /
                         (shown.generations * double(std::uint64_t{1} << in.deposit.places));
     const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     for (std::size_t i = 0; i < cells; ++i) {

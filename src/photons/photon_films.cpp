@@ -34,7 +34,7 @@ Status add_ground_noise(const Context& context, const FrameView& view, PhotonSta
     if (lit.batches < 2 || state.lights.ground_map.cells == 0) return Status::ok();
     // What is the same in every batch has no spread: sky, and the ground's light without the media.
     Lighting scattered = *lit.lighting;
-    scattered.sky = scattered.ground_diffuse = scattered.ground_sun = scattered.ground_lamps = {};
+    scattered.sky = scattered.ground.diffuse = scattered.ground.sun = scattered.ground.lamps = {};
     scattered.sun_irradiance = {};
     scattered.map = SkyMapView{};
     LightInput alone = lit;

@@ -68,7 +68,7 @@ int wanted_axes(const FrameView& view, const Lighting& lighting, const DepositPl
     if (lamps > 0 && view.scene.lights.size() > lamps) lamps = view.scene.lights.size();
     if (lamps > std::size_t(kMaxLampAxes)) lamps = std::size_t(kMaxLampAxes);
     int axes = d.lamp_axis + int(lamps);
-    while (axes > 1 && d.bands * d.bands + d.axis_degrees * axes > kMostPacked) --axes;
+    while (axes > 1 && d.bands * d.bands + d.axis_degrees * axes > kMaxPacked) --axes;
     return axes > 0 ? axes : 1;
 }
 
@@ -201,7 +201,7 @@ bool relight_photons(const FrameView& view, PhotonState& state) {
     keep_places(lights, next);
     const Lighting& before = lights.lighting;
     if (!same_lights(before, next) || before.constant != next.constant || before.sky != next.sky ||
-        before.ground_radiance() != next.ground_radiance())
+        before.ground.radiance() != next.ground.radiance())
         ++state.ring.relights;
     if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) state.shadow.ready = false;
     lights.lighting = next;
@@ -225,9 +225,9 @@ Status limit_photons(const FrameWork& work, PhotonState& state) {
 }
 
 bool same_lights(const Lighting& a, const Lighting& b) {
-    if (a.lights.size() != b.lights.size() || a.ground != b.ground || a.ground_z != b.ground_z ||
-        a.ground_albedo != b.ground_albedo || a.map.columns != b.map.columns ||
-        !same_lamps(a.lamps, b.lamps))
+    if (a.lights.size() != b.lights.size() || a.ground.present != b.ground.present ||
+        a.ground.z != b.ground.z || a.ground.albedo != b.ground.albedo ||
+        a.map.columns != b.map.columns || !same_lamps(a.lamps, b.lamps))
         return false;
     for (std::size_t i = 0; i < a.lights.size(); ++i) {
         const Light &x = a.lights[i], &y = b.lights[i];

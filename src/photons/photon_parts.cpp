@@ -11,7 +11,7 @@ namespace pileus {
 namespace {
 
 /// What a plan proves of one work; works of several seeds may be more.
-constexpr std::int64_t kMost = std::int64_t{1} << 62;
+constexpr std::int64_t kMax = std::int64_t{1} << 62;
 constexpr std::size_t kTallyWords = sizeof(TraceTally) / sizeof(std::int64_t);
 
 std::uint64_t bits_of(double v) {
@@ -108,7 +108,7 @@ Status PhotonMethod::add_light(const PartLight& light, bool counts) {
         for (std::size_t i = 0; i < slot.sums.size(); ++i) {
             std::int64_t& sum = slot.sums[i];
             const bool over = __builtin_add_overflow(sum, from[i], &sum);
-            if (over || sum > kMost || sum < -kMost)
+            if (over || sum > kMax || sum < -kMax)
                 return Status::limit("too much light for 64-bit sums, allowed: fewer seeds");
         }
         from += slot.sums.size();

@@ -51,7 +51,7 @@ std::uint64_t digest_of(const PhotonSlot& slot) {
     Digest d;
     d.integers(slot.sums.span());
     const PackedSums& packed = slot.packed;
-    std::int64_t numbers[kMostPacked];
+    std::int64_t numbers[kMaxPacked];
     for (std::size_t l = 0; l < packed.lights; ++l) {
         for (std::uint64_t set = 0; set < packed.count; ++set) {
             numbers_of_set(slot, l, 0, set, int(packed.numbers), numbers);

@@ -75,7 +75,7 @@ void numbers_of_set(const PhotonSlot& slot, std::size_t light, std::uint64_t str
         for (int i = 0; i < size; ++i) out[i] = Number(from[i]);
         return;
     }
-    std::int32_t q[kMostPacked];
+    std::int32_t q[kMaxPacked];
     const int power = unpack_set<0>(
         slot.packed.of_light(light) + set * packed_bytes(slot.packed.numbers), size, q);
     for (int i = 0; i < size; ++i) out[i] = Number(std::int64_t(q[i]) * (std::int64_t(1) << power));

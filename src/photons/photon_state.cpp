@@ -13,9 +13,9 @@ namespace {
 /// hold equally many; if that is under 8, as many as fit with slightly unequal shares.
 std::uint64_t batch_count(std::uint64_t generations) {
     std::uint64_t best = 1;
-    for (std::uint64_t n = 1; n <= kMostBatches && n <= generations; ++n)
+    for (std::uint64_t n = 1; n <= kMaxBatches && n <= generations; ++n)
         if (generations % n == 0) best = n;
-    const std::uint64_t most = generations < kMostBatches ? generations : kMostBatches;
+    const std::uint64_t most = generations < kMaxBatches ? generations : kMaxBatches;
     return best >= 8 ? best : most;
 }
 
@@ -92,7 +92,7 @@ int photon_batches(const PhotonState& state) {
         slots = ring.next_generation;
     if (!state.error_layer || slots < 2) return 0;
     // An animation's ring may hold more generations than the blender has planes for.
-    return int(slots < kMostBatches ? slots : kMostBatches);
+    return int(slots < kMaxBatches ? slots : kMaxBatches);
 }
 
 Status sums_overflow(const char* key, const FrameView& view, const PhotonState& state) {

@@ -17,7 +17,7 @@
 namespace pileus {
 
 /// Most groups of generations that the standard error is made from.
-constexpr std::uint64_t kMostBatches = 16;
+constexpr std::uint64_t kMaxBatches = 16;
 
 /// What is shot.
 struct PhotonLights {

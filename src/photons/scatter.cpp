@@ -24,7 +24,7 @@ Window band_window(int bands, bool sinc) {
         w.factor[l] = 1;
         if (!sinc || l == 0) continue;
         const double x = double(l) / bands;
-        w.factor[l] = float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
+        w.factor[l] = float(sincos_deg(180.0 * x).sine / (kPi64 * x));
     }
     return w;
 }

@@ -22,7 +22,7 @@ Window band_window(int bands, bool sinc);
 /// the scattered light follows. One medium has weight 1, to the bit.
 struct Mixture {
     float albedo = 0;
-    float weight[kMostMedia] = {};
+    float weight[kMaxMedia] = {};
     const Medium* medium = nullptr;
 
     float moment(int l) const {
@@ -40,7 +40,7 @@ struct Mixture {
 };
 
 /// Of one set of sums: bands, degrees about axes, the first order.
-constexpr int kMostNumbers = kMostPacked + 1;
+constexpr int kMaxNumbers = kMaxPacked + 1;
 using Direction = Vec<float>;
 
 /// What multiplies the sums of one place and channel towards `to`: the same for all slots.

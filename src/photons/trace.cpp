@@ -18,8 +18,8 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kChunk = 4096;                          // photons per piece of work
-constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
+constexpr std::uint64_t kChunk = 4096;                         // photons per piece of work
+constexpr std::uint64_t kMaxPhotons = std::uint64_t{1} << 31;  // per launch
 
 std::uint64_t collector_numbers(const TraceInput& in) {
     return in.collectors * std::uint64_t(sum_channels(*in.medium, in.deposit)) *
@@ -116,10 +116,10 @@ void add_fates(const Fates& from, Fates& to) {
 void set_unowed(const Lighting& light, TraceParams& k) {
     double all = 0, has = 0;
     for (int c = 0; c < 3; ++c) {
-        all += light.ground_beam[c];
-        has += light.ground_sun[c];
-        if (light.ground_beam[c] > 0)
-            k.unowed[c] = float(1 - std::min(light.ground_sun[c] / light.ground_beam[c], 1.0));
+        all += light.ground.beam[c];
+        has += light.ground.sun[c];
+        if (light.ground.beam[c] > 0)
+            k.unowed[c] = float(1 - std::min(light.ground.sun[c] / light.ground.beam[c], 1.0));
     }
     if (k.channels == 1 && all > 0) k.unowed[0] = float(1 - std::min(has / all, 1.0));
 }
@@ -160,9 +160,9 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.lamp_count = std::int32_t(in.lighting->lamp_emission.size());
     k.hemisphere = light.hemisphere;
     for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
-    k.ground = in.lighting->ground ? 1 : 0;
-    k.ground_z = float(in.lighting->ground_z);
-    k.ground_albedo = float(in.lighting->ground_albedo);
+    k.ground = in.lighting->ground.present ? 1 : 0;
+    k.ground_z = float(in.lighting->ground.z);
+    k.ground_albedo = float(in.lighting->ground.albedo);
     if (light.beam) set_unowed(*in.lighting, k);
     for (int a = 0; a < 2; ++a) {
         k.ground_cells[a] = in.ground.cells;
@@ -203,9 +203,9 @@ void add_tally(const TraceTally& from, TraceTally& to) {
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
     constexpr int kCells = 40;
     GroundMap map;
-    if (!lighting.ground || lighting.lights.empty()) return map;
+    if (!lighting.ground.present || lighting.lights.empty()) return map;
     map.cells = kCells;
-    const double reach = medium.grid.periodic ? 0 : medium.extent_m[2] - lighting.ground_z;
+    const double reach = medium.grid.periodic ? 0 : medium.extent_m[2] - lighting.ground.z;
     for (int a = 0; a < 2; ++a) {
         map.origin[a] = float(-reach);
         map.per_metre[a] = float(kCells / (medium.extent_m[a] + 2 * reach));
@@ -255,7 +255,7 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
         while (left > 0 && !ended) {
             const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);
             launch.count = left < room ? left : room;
-            if (launch.count > kMostPhotons) launch.count = kMostPhotons;
+            if (launch.count > kMaxPhotons) launch.count = kMaxPhotons;
             launch.params.first_photon = std::uint32_t(index);
             launch.params.key = make_key(in.seed, light.stream, std::uint32_t(index >> 32));
             PILEUS_TRY(run_launch(launch, in.threads, ended));

@@ -9,12 +9,10 @@
 namespace pileus {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 /// Adds light of radiance times solid angle `power` from direction `w` to the harmonics of the
 /// irradiance over pi; degrees 0, 1, 2 of the clamped cosine are 1, 2/3, 1/4.
 void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]) {
-    const double flat = power / (4 * kPiD), bent = 5 * power / (16 * kPiD);
+    const double flat = power / (4 * kPi64), bent = 5 * power / (16 * kPi64);
     k[0] += flat;
     for (int a = 0; a < 3; ++a) k[1 + a] += 2 * flat * w[a];
     k[4] += bent * 3 * w[0] * w[1];
@@ -36,7 +34,7 @@ void add_ring(const SkyMapView& map, int row, double high_deg, double low_deg,
     const SineCosine high = sincos_deg(high_deg), low = sincos_deg(low_deg);
     const SineCosine middle = sincos_deg(0.5 * (high_deg + low_deg));
     const int parts = parts_of(360.0 / map.columns), all = map.columns * parts;
-    const double angle = (high.cosine - low.cosine) * 2 * kPiD / double(all);
+    const double angle = (high.cosine - low.cosine) * 2 * kPi64 / double(all);
     for (int i = 0; i < all; ++i) {
         const double turns = (i + 0.5) / double(all) + double(map.turn_of_first);
         const SineCosine north = sincos_deg(360.0 * turns);
@@ -66,19 +64,19 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
     for (int c = 0; c < 3; ++c) {
         const std::size_t s = std::size_t(c);
         double(&sum)[kAroundTerms] = sums[c];
-        const double below = light.ground_radiance()[c];
+        const double below = light.ground.radiance()[c];
         if (light.map.columns == 0) {
-            sum[0] = light.ground ? 0.5 * light.sky[s] : light.sky[s];
-            sum[3] = light.ground ? 0.5 * light.sky[s] : 0;
+            sum[0] = light.ground.present ? 0.5 * light.sky[s] : light.sky[s];
+            sum[3] = light.ground.present ? 0.5 * light.sky[s] : 0;
         }
-        if (light.ground) sum[0] += 0.5 * below, sum[3] -= 0.5 * below;
+        if (light.ground.present) sum[0] += 0.5 * below, sum[3] -= 0.5 * below;
         for (int i = 0; i < kAroundTerms; ++i) k.around[c][i] = float(sum[i]);
-        k.sun[c] = float(light.sun_irradiance[s] / kPiD);
+        k.sun[c] = float(light.sun_irradiance[s] / kPi64);
     }
     // Parts of the light without the sun have none at any height.
     if (light.sun_irradiance == Double3{}) return;
     k.sun_heights = light.sun_heights;
-    for (float& above : k.sun_heights.above) above = float(double(above) / kPiD);
+    for (float& above : k.sun_heights.above) above = float(double(above) / kPi64);
 }
 
 /// Where the image has something nearer, that hides what was found: black, for its owner draws it.
@@ -111,12 +109,12 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
     BackgroundParams k{};
     k.medium = medium;
     k.camera = camera;
-    k.ground = light.ground ? 1 : 0;
-    k.ground_z = float(light.ground_z);
+    k.ground = light.ground.present ? 1 : 0;
+    k.ground_z = float(light.ground.z);
     for (std::size_t c = 0; c < 3; ++c) {
         k.sky[c] = float(light.sky[c]);
-        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
-        k.ground_sun[c] = float(light.ground_sun[c]);
+        k.ground_diffuse[c] = float(light.ground.diffuse[c]);
+        k.ground_sun[c] = float(light.ground.sun[c]);
         k.to_sun[c] = light.to_sun[c];
         k.sun_rest[c] = 1;
     }

@@ -2,6 +2,8 @@
 // See layers.h.
 #include "src/picture/layers.h"
 
+#include "src/base/angles.h"
+
 namespace pileus {
 namespace {
 
@@ -218,7 +220,7 @@ Status add_reflectance(const Lighting& lighting, Image& image) {
         PILEUS_TRY(share.resize(radiance.size(), names[c]));
         const double level = mu0 * lighting.sun_irradiance[c];
         // Nothing is a share of a sun that does not shine.
-        const double scale = level > 0 ? 3.14159265358979323846 / level : 0;
+        const double scale = level > 0 ? kPi64 / level : 0;
         for (std::size_t i = 0; i < share.size(); ++i)
             share[i] = float(scale * double(radiance[i]));
         image.channels.push_back({names[c], std::move(share)});

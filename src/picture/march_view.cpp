@@ -48,8 +48,8 @@ Status march_medium(const Context& context, const Medium& medium, const Majorant
         BackgroundParams k{};
         k.medium = make_medium_view(medium, majorants);
         k.camera = camera;
-        k.ground = lighting.ground ? 1 : 0;
-        k.ground_z = float(lighting.ground_z);
+        k.ground = lighting.ground.present ? 1 : 0;
+        k.ground_z = float(lighting.ground.z);
         const BackgroundBuffers b{nullptr, nullptr, planes.opaque_depth.data()};
         PILEUS_TRY(show_background(context, lighting, k, b));
     }

@@ -10,9 +10,8 @@
 namespace pileus {
 namespace {
 
-constexpr int kMostParts = 64;                        // of a pixel's edge
-constexpr double kMostPixel = 8;                      // radii of the disc
-constexpr double kDiscArea = 3.14159265358979323846;  // of radius 1
+constexpr int kMaxParts = 64;    // of a pixel's edge
+constexpr double kMaxPixel = 8;  // radii of the disc
 
 /// Whole numbers of pixels that a stretch [low, high] of the picture touches, within [first, end).
 struct Stretch {
@@ -48,17 +47,17 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
     const Stretch rows = touched(middle_y, reach * high + 1, 0, whole_height(c));
     // Parts of a pixel lie within a sixteenth of the radius, or as many as there may be.
     const double pixel = 1 / std::min(wide, high);
-    const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0), double(kMostParts)));
+    const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0), double(kMaxParts)));
     // What is smaller than parts are is in one pixel: its area over the pixel's.
-    const bool point = pixel > kMostPixel * r.sine;
+    const bool point = pixel > kMaxPixel * r.sine;
     const double own_x = std::floor(middle_x), own_y = std::floor(middle_y);
     const double point_share =
         double(disc.to_sun[2]) < disc.horizon
             ? 0
-            : kDiscArea * r.sine * r.sine * slant * __builtin_sqrt(slant) * wide * high;
+            : kPi64 * r.sine * r.sine * slant * __builtin_sqrt(slant) * wide * high;
     std::array<double, 3> radiance{};
     for (std::size_t n = 0; n < 3; ++n)
-        radiance[n] = disc.irradiance[n] / (kDiscArea * r.sine * r.sine);
+        radiance[n] = disc.irradiance[n] / (kPi64 * r.sine * r.sine);
     const std::size_t pixels = std::size_t(c.width) * std::size_t(c.height);
     for (int own = 0; own < c.height; ++own) {
         const int j = picture_row(c, own);

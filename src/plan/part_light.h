@@ -18,7 +18,7 @@ struct WorkPart {
 };
 
 /// How many parts of a frame there may be.
-constexpr std::uint32_t kMostParts = 4096;
+constexpr std::uint32_t kMaxParts = 4096;
 
 /// How a method's work on a frame is divided, so that what is merged has the bits of one run.
 enum class Division {

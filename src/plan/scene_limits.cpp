@@ -14,7 +14,7 @@ Status check_scene_limits(const Scene& scene, const Limits& limits) {
         {LimitId::kPixels, std::uint64_t(size[0]) * std::uint64_t(size[1])},
         {LimitId::kFrames, scene.animation.present ? std::uint64_t(scene.animation.frames) : 1},
         {LimitId::kGenerations, std::uint64_t(scene.collectors.generations)},
-        {LimitId::kSamples, std::uint64_t(scene.collectors.samples)},
+        {LimitId::kSamples, std::uint64_t(scene.collectors.placement.samples)},
     };
     for (const auto& need : needs)
         PILEUS_TRY(check_limit(limits, need.first, need.second, scene.file));

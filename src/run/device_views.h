@@ -20,9 +20,9 @@ inline DeviceSize product(const std::int32_t (&n)[3]) {
 }
 /// Numbers of scratch that a launch has at most, and the items that it then takes at once, each of
 /// which has a share.
-constexpr DeviceSize kMostScratch = DeviceSize{1} << 26;
+constexpr DeviceSize kMaxScratch = DeviceSize{1} << 26;
 inline std::uint32_t items_at_once(std::uint32_t count, DeviceSize share) {
-    const DeviceSize most = kMostScratch / share;
+    const DeviceSize most = kMaxScratch / share;
     return most < 1 ? 1 : (most < count ? std::uint32_t(most) : count);
 }
 

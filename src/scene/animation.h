@@ -39,7 +39,7 @@ struct AnimationKey {
     std::array<bool, kTrackCount> given{};
     std::array<double, kTrackNumbers> numbers{};
 };
-constexpr std::size_t kMostKeys = 1000;
+constexpr std::size_t kMaxKeys = 1000;
 
 struct Animation {
     bool present = false;

@@ -12,7 +12,7 @@
 
 namespace pileus {
 
-constexpr std::size_t kMostCloudKinds = 64, kMostScatters = 64, kMostClouds = 1000;
+constexpr std::size_t kMaxCloudKinds = 64, kMaxScatters = 64, kMaxClouds = 1000;
 
 struct CloudKindSettings {
     std::string name;

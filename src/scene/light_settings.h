@@ -13,7 +13,7 @@ namespace pileus {
 enum class LampKind { kPoint, kSpot, kDirectional };
 
 /// Of a scene, as of all tables of one list.
-constexpr std::size_t kMostLights = 64;
+constexpr std::size_t kMaxLights = 64;
 
 struct LightSettings {
     LampKind type = LampKind::kPoint;

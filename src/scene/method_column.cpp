@@ -16,7 +16,7 @@ MethodColumn column_of_name(const std::string& method) {
 
 MethodColumn method_column(const Scene& scene) {
     const MethodColumn column = column_of_name(scene.method);
-    if (column == MethodColumn::kCollectors && scene.collectors.billboards)
+    if (column == MethodColumn::kCollectors && scene.collectors.display.billboards)
         return MethodColumn::kCollectorBillboards;
     if (column == MethodColumn::kParticles && scene.particles.billboards)
         return MethodColumn::kParticleBillboards;
@@ -30,7 +30,7 @@ const Support* refused(const Scene& scene, Feature feature) {
 
 bool has_camera_closure(const Scene& scene) {
     const MethodColumn column = column_of_name(scene.method);
-    if (column == MethodColumn::kCollectors) return scene.collectors.camera_closure;
+    if (column == MethodColumn::kCollectors) return scene.collectors.closure.camera;
     return column == MethodColumn::kPhotonGrid && scene.photon_grid.closure == GridClosure::kCamera;
 }
 

@@ -68,7 +68,7 @@ bool is_sequence(const std::string& file) {
 
 bool has_sequence(const Scene& scene) {
     for (const MediumSettings& medium : scene.media)
-        if (is_sequence(medium.file)) return true;
+        if (is_sequence(medium.source.file)) return true;
     return false;
 }
 
@@ -85,8 +85,8 @@ std::string path_of_frame(const Scene& scene, const std::string& file, std::int6
 }  // namespace
 
 std::string density_path(const Scene& scene, const MediumSettings& medium) {
-    return path_of_frame(scene, medium.file,
-                         std::int64_t(medium.first_frame) + scene.world.sequence_frame);
+    return path_of_frame(scene, medium.source.file,
+                         std::int64_t(medium.source.first_frame) + scene.world.sequence_frame);
 }
 
 std::string depth_path(const Scene& scene) {

@@ -15,7 +15,7 @@ namespace pileus {
 namespace {
 
 /// The most pictures that a hand-over may take.
-constexpr std::uint32_t kMostFrames = 10000;
+constexpr std::uint32_t kMaxFrames = 10000;
 /// How far an eye goes, in parts of its way to the media, before what fades is the last mixture in
 /// place of the first picture: 4 degrees about the media.
 constexpr double kRetakeAt = 0.07;
@@ -111,9 +111,9 @@ void Session::keep(const std::shared_ptr<const void>& lent) {
 
 Status Session::check_take_over(const Session& from, std::uint32_t frames) const {
     if (&from == this) return refuse("next is the session itself", "another");
-    if (frames > kMostFrames)
-        return refuse("frames: " + std::to_string(frames), "0 to " + std::to_string(kMostFrames));
-    if (sealed_ || from.sealed_)
+    if (frames > kMaxFrames)
+        return refuse("frames: " + std::to_string(frames), "0 to " + std::to_string(kMaxFrames));
+    if (seal_.on || from.seal_.on)
         return refuse("a flight keeps its density", "sessions of pileus_session_create");
     // Skies of many clouds (src/clouds) hold their session, which has none.
     if (world().media == 0 || from.world().media == 0)
@@ -131,15 +131,16 @@ Status Session::check_take_over(const Session& from, std::uint32_t frames) const
 }
 
 Status Session::fade_from(Session& from, std::uint32_t frames, std::unique_ptr<Fading>& fading) {
-    const auto& size = from.shown_camera_.resolution;
-    if (frames < 2 || from.shown_ == nullptr || !are_whole(*from.shown_, size[0], size[1]))
+    const auto& size = from.last_.camera.resolution;
+    if (frames < 2 || from.last_.planes == nullptr ||
+        !are_whole(*from.last_.planes, size[0], size[1]))
         return Status::ok();
     const StageClock clock(from.context_, "hand-over");
     auto made = std::make_unique<FadingLast>();
-    made->camera = from.shown_camera_;
+    made->camera = from.last_.camera;
     made->had_surfaces = has_surfaces(from.scenery_.lighting);
     made->frames = frames;
-    Planes own, *planes = from.shown_;
+    Planes own, *planes = from.last_.planes;
     if (from.made_.method->keeps_planes()) {
         PILEUS_TRY(copy_picture(from.context_, *planes, own));
         planes = &own;
@@ -180,14 +181,14 @@ Status Session::take_over(Session& from, std::uint32_t frames) {
     // Nothing is refused from here on.
     fading_ = std::move(fading);
     from.fading_.reset();
-    from.shown_ = nullptr;
+    from.last_.planes = nullptr;
     depth_scale_ = from.depth_scale_;
-    stale_ = stale_ || host_.number != from.host_.number;
+    changed_.stale = changed_.stale || host_.number != from.host_.number;
     host_.number = from.host_.number;
     CameraDepth &own = scenery_.environment.depth, &given = from.scenery_.environment.depth;
     if (own.present || given.present) {
         std::swap(own, given);
-        stale_ = from.stale_ = true;
+        changed_.stale = from.changed_.stale = true;
     }
     threads_.swap(from.threads_);
     std::swap(context_.progress, from.context_.progress);

@@ -27,7 +27,7 @@ namespace {
 void count_water(const Scene& scene, const World& world, Report& report) {
     bool weather = false, grid = false;
     for (const MediumSettings& medium : scene.media) {
-        const VolumeFormat* format = volume_format_named(medium.format);
+        const VolumeFormat* format = volume_format_named(medium.source.format);
         weather = weather || (format != nullptr && format->is_weather);
         grid = grid || (format != nullptr && !format->is_weather && !format->is_particles);
     }
@@ -99,7 +99,8 @@ Status render_frames(const Scene& scene, const Shown& shown, const RunStart& sta
         // Where the picture is, in the file's coordinates.
         const Camera seen = camera_at(scene.animation, session.camera(), frame);
         for (const auto& told :
-             picture_place(*session.scenery().scene, seen, orbit_at(scene, frame)))
+             picture_place(*session.scenery().scene, seen, orbit_at(scene, frame),
+                           session.scenery().weather.get()))
             image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);

@@ -42,10 +42,7 @@ double stage_seconds(const Report& report) {
 
 }  // namespace
 
-Status make_world(const Scene& described, const RenderOptions& options,
-                  std::shared_ptr<World>& world) {
-    Scene scene = described;
-    share_weather_files(scene);
+Status make_world(const Scene& scene, const RenderOptions& options, std::shared_ptr<World>& world) {
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);
@@ -55,7 +52,10 @@ Status make_world(const Scene& described, const RenderOptions& options,
     PILEUS_TRY(make_context(scene, options, context, report));
     PILEUS_TRY(find_method(scene, row));
     const auto made = std::make_shared<World>();
-    const HostMedia none, &given = options.media != nullptr ? *options.media : none;
+    const std::shared_ptr<WeatherFiles> files = make_weather_files();
+    HostMedia given;
+    if (options.media != nullptr) given = *options.media;
+    given.weather = files.get();
     PILEUS_TRY(outline_world(scene, row.world, given, context, *made));
     // Sessions weigh all they need; here it is the grid, of which each medium has its part.
     const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
@@ -98,7 +98,8 @@ Status Session::open_either(const Scene& scene, const FrameState& frame,
     PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
     static_cast<FrameState&>(scene_) = frame;
-    PILEUS_TRY(place_scene(scene_));
+    scenery_.weather = make_weather_files();
+    PILEUS_TRY(place_scene(scene_, scenery_.weather.get()));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
     if (hosted && scene_.crop[2] > 0)
@@ -160,19 +161,19 @@ void Session::finish_report() {
 
 /// Changes that a host made since the last time.
 Status Session::aim() {
-    if (!stale_) return Status::ok();
-    if (air_old_) PILEUS_TRY(relight_air());
+    if (!changed_.stale) return Status::ok();
+    if (changed_.air_old) PILEUS_TRY(relight_air());
     place();
     // What late rows lead to may be laid out anew.
-    if (late_.ready) shown_ = nullptr;
+    if (late_.ready) last_.planes = nullptr;
     const Lighting before = scenery_.lighting;
     scenery_.light(host_.number);
     const bool new_shine = !same_shine(before, scenery_.lighting);
     Method& method = *made_.method;
     const std::uint32_t prepared = method.progress().prepared;
-    PILEUS_TRY(method.set_view(context_, view(), {anew_, new_shine}));
+    PILEUS_TRY(method.set_view(context_, view(), {changed_.anew, new_shine}));
     PILEUS_TRY(check_sealed());
-    stale_ = anew_ = false;
+    changed_.stale = changed_.anew = false;
     stats_.prepared = method.progress().prepared;
     if (stats_.prepared != prepared) PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
     return Status::ok();
@@ -216,10 +217,10 @@ Status Session::render(const FrameTarget& target) {
     PILEUS_TRY(aim());
     if (fading_ != nullptr) {
         bool goes_on = false;
-        PILEUS_TRY(fading_->begin(context_, scenery_, shown_, goes_on));
+        PILEUS_TRY(fading_->begin(context_, scenery_, last_.planes, goes_on));
         if (!goes_on) fading_.reset();
     }
-    shown_ = nullptr;
+    last_.planes = nullptr;
     Planes* planes = nullptr;
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
@@ -238,8 +239,8 @@ Status Session::render(const FrameTarget& target) {
     const Planes* const fresh = planes;
     if (fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scenery_, made_.method->keeps_planes(), planes));
-    shown_ = planes;
-    shown_camera_ = scene_.camera;
+    last_.planes = planes;
+    last_.camera = scene_.camera;
     const auto& size = scene_.camera.resolution;
     std::uint64_t broken = 0;
     if (target.has_colour) {
@@ -254,10 +255,10 @@ Status Session::render(const FrameTarget& target) {
         write_depths(*fresh, make_camera(scene_.camera, 0, world().medium.low_m), target.depth_kind,
                      depth_scale_, target.depth);
     }
-    has_hash_ = target.hash != nullptr;
-    if (has_hash_) {
+    last_.has_hash = target.hash != nullptr;
+    if (last_.has_hash) {
         const StageClock clock(context_, "hash");
-        *target.hash = hash_ = hash_planes(*planes);
+        *target.hash = last_.hash = hash_planes(*planes);
     }
     report_.counters.emplace_back("nan", broken);
     report_.frame = host_.number;
@@ -271,7 +272,7 @@ Status Session::render(const FrameTarget& target) {
 
 Report Session::told() const {
     Report out = report_;
-    out.hash = has_hash_ ? hex_text(hash_) : std::string();
+    out.hash = last_.has_hash ? hex_text(last_.hash) : std::string();
     made_.method->count(out.counters);
     made_.report->report(out);
     take_clocks(out.clocks);

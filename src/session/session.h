@@ -188,6 +188,24 @@ public:
     Status draw_alone(double slack_deg, const Planes*& planes);
 
 private:
+    /// What a host has changed since the light was made.
+    struct Changes {
+        bool stale = true, anew = false;
+        bool air_old = false;  ///< the air's sky is another sun's or ground's
+    };
+    /// Nothing may be laid out anew: docs/flight.md
+    struct Seal {
+        bool on = false;
+        Shine shine;
+        std::size_t lights = 0;
+    };
+    struct LastPicture {
+        Planes* planes = nullptr;  ///< but for its late rows; null: none
+        Camera camera;             ///< as the scene had it
+        bool has_hash = false;
+        std::uint64_t hash = 0;
+    };
+
     FrameView view() { return scenery_.view(host_.number); }
     Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
                        bool hosted, bool exact, std::shared_ptr<const World> world);
@@ -226,13 +244,8 @@ private:
     FrameState host_;  ///< as a host set it, or as the file has it
     DepthScale depth_scale_;
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
-    bool stale_ = true, anew_ = false;
-    bool air_old_ = false;  ///< the air's sky is another sun's or ground's
-    bool has_hash_ = false;
-    bool sealed_ = false;  ///< nothing may be laid out anew: docs/flight.md
-    Shine sealed_shine_;
-    std::size_t sealed_lights_ = 0;
-    std::uint64_t hash_ = 0;  ///< of the last picture
+    Changes changed_;
+    Seal seal_;
     RenderOptions options_;
     Report report_;
     Counts counted_;  ///< what counters() returned last
@@ -243,8 +256,7 @@ private:
     Digests digests_;  ///< of what no frame changes
     MadeMethod made_;
     LateRows late_;
-    Planes* shown_ = nullptr;  ///< the last picture, but for its late rows; null: none
-    Camera shown_camera_;      ///< as the scene had it
+    LastPicture last_;
     std::unique_ptr<Fading> fading_;
     SessionStats stats_;
 };

@@ -87,7 +87,7 @@ Status Session::set_camera(const Camera& given) {
     if (same_view(camera, host_.camera)) return Status::ok();
     if (const char* why = made_.method->fixed_view())
         return Status::bad_input(std::string("camera: ") + why);
-    PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
+    PILEUS_TRY(check_frustum(camera, scene_.collectors.display.billboards));
     if (const char* key = camera_fault(scene_, host_.ground, camera)) {
         PILEUS_TRY(check_camera_in_air(scene_, camera, host_.ground));
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
@@ -98,11 +98,11 @@ Status Session::set_camera(const Camera& given) {
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
-    if (sealed_ && camera.resolution != host_.camera.resolution)
+    if (seal_.on && camera.resolution != host_.camera.resolution)
         return refuse_sealed("camera.resolution");
     if (camera.resolution != host_.camera.resolution) scenery_.environment.depth = CameraDepth{};
     host_.camera = camera;
-    stale_ = true;
+    changed_.stale = true;
     return Status::ok();
 }
 
@@ -116,11 +116,11 @@ Status Session::set_sun(const Sun& given) {
     if (same_sun(sun, host_.sun)) return Status::ok();
     if (kAtmosphere && scene_.atmosphere.present && !sun.present)
         return refuse(kNoSunInAir, kNoSunInAirAllowed);
-    if (sealed_ && scene_.atmosphere.present) return refuse_sealed("sun");
+    if (seal_.on && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = out_of_range(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     host_.sun = sun;
-    stale_ = true;
+    changed_.stale = true;
     return relight_air();
 }
 
@@ -130,10 +130,10 @@ Status Session::relight_air() {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     // Where memory ends, the next picture tries again.
-    anew_ = air_old_ = true;
+    changed_.anew = changed_.air_old = true;
     PILEUS_TRY(pileus::relight_air(scene_.atmosphere, host_.sun, host_.ground, context_.threads,
                                    world(), scenery_.environment));
-    air_old_ = false;
+    changed_.air_old = false;
     return Status::ok();
 }
 
@@ -154,22 +154,22 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     }
     if (const char* key = next.mapped ? "sky" : out_of_range(next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
-    if (sealed_ && (map != nullptr || (!kept && scenery_.environment.sky_map.present())))
+    if (seal_.on && (map != nullptr || (!kept && scenery_.environment.sky_map.present())))
         return refuse_sealed("sky.map");
-    if (late_.ready) shown_ = nullptr;
+    if (late_.ready) last_.planes = nullptr;
     if (map != nullptr || (!kept && scenery_.environment.sky_map.present())) {
         PILEUS_TRY(set_sky_map(map, next, host_.ground.present, scenery_.environment));
-        anew_ = true;
+        changed_.anew = true;
     }
     host_.sky = scene_.sky = next;
-    stale_ = true;
+    changed_.stale = true;
     return Status::ok();
 }
 
 Status Session::set_ground(const Ground& given) {
     const Ground ground = held(given);
     if (same_ground(ground, host_.ground)) return Status::ok();
-    if (sealed_ && scene_.atmosphere.present) return refuse_sealed("ground");
+    if (seal_.on && scene_.atmosphere.present) return refuse_sealed("ground");
     if (const char* key = ground_fault(scene_, host_.camera, ground))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.ground = ground;
@@ -181,25 +181,24 @@ Status Session::set_ground(const Ground& given) {
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
     host_.ground = ground;
-    stale_ = true;
+    changed_.stale = true;
     return relight_air();
 }
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == host_.lights) return Status::ok();
     PILEUS_TRY(refuse_clouds_sky("lights"));
-    if (sealed_ && sealed_lights_ == 0) return refuse_sealed("light");
-    if (sealed_ && lights.size() > sealed_lights_)
+    if (seal_.on && seal_.lights == 0) return refuse_sealed("light");
+    if (seal_.on && lights.size() > seal_.lights)
         return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
-                                 std::to_string(sealed_lights_) +
-                                 ", as when the flight was opened");
+                                 std::to_string(seal_.lights) + ", as when the flight was opened");
     if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
             changed.ground = host_.ground;
         }));
     host_.lights = lights;
-    stale_ = true;
+    changed_.stale = true;
     return Status::ok();
 }
 
@@ -228,14 +227,15 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && scenery_.environment.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
-    stale_ = stale_ || offset_m != host_.placement.offset_m || yaw_deg != host_.placement.yaw_deg;
+    changed_.stale = changed_.stale || offset_m != host_.placement.offset_m ||
+                     yaw_deg != host_.placement.yaw_deg;
     host_.placement = next;
     return Status::ok();
 }
 
 Status Session::set_frame(int number) {
     if (number < 0) return Status::bad_input("frame: below 0, allowed: 0 and more");
-    stale_ = stale_ || number != host_.number;
+    changed_.stale = changed_.stale || number != host_.number;
     host_.number = number;
     return Status::ok();
 }
@@ -247,7 +247,7 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
         return Status::bad_input(
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
-    if (sealed_ && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
+    if (seal_.on && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
     if (rows != nullptr) {
         const CameraParams camera = make_camera(host_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
@@ -255,7 +255,7 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
         return Status::ok();
     }
     depth.present = rows != nullptr;
-    stale_ = true;
+    changed_.stale = true;
     return Status::ok();
 }
 
@@ -270,18 +270,18 @@ Status Session::reserve() {
 }
 
 void Session::seal() {
-    sealed_ = true;
+    seal_.on = true;
     made_.method->seal();
-    sealed_shine_ = shine_of(scenery_.lighting);
-    sealed_lights_ = scene_.lights.size();
-    const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
+    seal_.shine = shine_of(scenery_.lighting);
+    seal_.lights = scene_.lights.size();
+    const std::size_t lamps = scene_.lights.empty() ? 0 : kMaxLights;
     host_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);
     scenery_.lighting.reserve(lamps);
     // Those of a picture, of the method, and of the accidents that a log is told of.
-    constexpr std::size_t kMostCounters = 16;
-    report_.counters.reserve(kMostCounters);
-    counted_.reserve(kMostCounters);
+    constexpr std::size_t kMaxCounters = 16;
+    report_.counters.reserve(kMaxCounters);
+    counted_.reserve(kMaxCounters);
 }
 
 Status Session::reserve_depth() {
@@ -292,23 +292,23 @@ Status Session::reserve_depth() {
     for (float& metres : depth.metres.span()) metres = __builtin_inff();
     depth.columns = std::size_t(size[0]);
     depth.present = true;
-    stale_ = true;
+    changed_.stale = true;
     return Status::ok();
 }
 
 Shine shine_of(const Lighting& l) {
-    return {l.sunlit, l.map.columns > 0 || l.sky != Double3{}, l.ground};
+    return {l.sunlit, l.map.columns > 0 || l.sky != Double3{}, l.ground.present};
 }
 
 /// Arrays of a light are made when it first shines, and others when the ground is not there.
 Status Session::check_sealed() const {
-    if (!sealed_) return Status::ok();
+    if (!seal_.on) return Status::ok();
     const Shine now = shine_of(scenery_.lighting);
-    if (now.sun && !sealed_shine_.sun)
+    if (now.sun && !seal_.shine.sun)
         return Status::bad_input(
             "sun: it did not shine when the flight was opened, allowed: below the horizon");
-    if (now.sky != sealed_shine_.sky) return refuse_sealed("sky");
-    return now.ground != sealed_shine_.ground ? refuse_sealed("ground") : Status::ok();
+    if (now.sky != seal_.shine.sky) return refuse_sealed("sky");
+    return now.ground != seal_.shine.ground ? refuse_sealed("ground") : Status::ok();
 }
 
 Status Session::lit(Scenery*& scenery) {
@@ -328,7 +328,7 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     RenderAsk ask;
     ask.media_only = true;
     ask.view_slack_deg = slack_deg;
-    shown_ = nullptr;
+    last_.planes = nullptr;
     Planes* own = nullptr;
     PILEUS_TRY(made_.method->render(context_, view(), ask, own));
     planes = own;

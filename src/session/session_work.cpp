@@ -40,7 +40,7 @@ const char* work_fault(const FrameWork& work, const FrameWork& whole) {
     if (!one_of(work.temporal, 0, 2, 4) || (work.temporal > 0 && work.scale > 1))
         return "work.temporal";
     if (whole.steps > 0 && (work.steps < 1 || work.steps > whole.steps)) return "work.steps";
-    const bool refreshed = holds(range_of(&RaymarchSettings::light_refresh), work.light_refresh);
+    const bool refreshed = holds(range_of(&RaymarchLightSettings::refresh), work.light_refresh);
     return whole.light_refresh > 0 && !refreshed ? "work.light_refresh" : nullptr;
 }
 

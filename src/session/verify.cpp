@@ -6,6 +6,7 @@
 
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/picture/air_view.h"
 #include "src/scene/read_scene.h"
 #include "src/world/medium/detail.h"
@@ -114,7 +115,8 @@ Status Verifier::open(const Scene& scene, const FrameState& frame, std::uint64_t
     pixels_ = pixels;
     scene_ = scene;
     static_cast<FrameState&>(scene_) = frame;
-    PILEUS_TRY(place_scene(scene_));
+    scenery_.weather = make_weather_files();
+    PILEUS_TRY(place_scene(scene_, scenery_.weather.get()));
     rest_ = scene_;
     place(frame.world.sequence_frame);
     const MethodRow row = path_row();

@@ -73,9 +73,9 @@ void find_warnings(const Scene& scene, const Image& image, Report& report, bool 
 void warn_of_cells(const Medium& medium, double cell_m, Report& report) {
     // A deck of one layer of 27 seen from above is 49 % too dark, of layers of 3.4 4 %. The default
     // cumulus, within 2.5 %, has leaves of up to 4.5, smaller ones at its rims.
-    constexpr double kMostDepth = 8;
+    constexpr double kMaxDepth = 8;
     const double depth = max_extinction(medium) * cell_m;
-    if (!(depth > kMostDepth)) return;
+    if (!(depth > kMaxDepth)) return;
     report.warnings.push_back(
         "media: scattered light has one value in cells of up to " + number_text(depth, 3) +
         " optical depths: thick rims may be darker by a third and more (finer cells by "

@@ -2,15 +2,13 @@
 // See place_scene.h.
 #include "src/world/place_scene.h"
 
-#include "src/io/volumes/weather_file.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/places.h"
 
 namespace pileus {
 
-Status place_scene(Scene& scene) {
-    share_weather_files(scene);
-    PILEUS_TRY(place_camera(scene));
+Status place_scene(Scene& scene, WeatherFiles* files) {
+    PILEUS_TRY(place_camera(scene, files));
     place_sun(scene.atmosphere, scene.hours_later, scene.sun);
     return check_camera_in_air(scene, scene.camera, scene.ground);
 }

@@ -8,8 +8,10 @@
 
 namespace pileus {
 
-/// Camera by the map of weather data, sun by the date, both once. kBadInput: as place_camera; a
-/// camera above the air.
-Status place_scene(Scene& scene);
+class WeatherFiles;
+
+/// Camera by the map of weather data in one of `files`, sun by the date, both once. kBadInput: as
+/// place_camera; a camera above the air.
+Status place_scene(Scene& scene, WeatherFiles* files);
 
 }  // namespace pileus

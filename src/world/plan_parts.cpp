@@ -11,7 +11,7 @@ constexpr std::uint64_t kFloat = sizeof(float);
 
 std::uint64_t most_tracking_blocks(const Grid& grid, bool local) {
     if (!local) return 1;
-    return block_total(grid, voxel_count(grid) <= kMostSingleVoxels ? 1 : 2);
+    return block_total(grid, voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2);
 }
 
 SkyMapBytes sky_map_bytes(const SkyMap& map) {
@@ -48,7 +48,7 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
 void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t threads, Stage last,
                        MemoryTable& t) {
     // The search holds the finest blocks and the next, and is over before the choice is made.
-    const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    const int finest = voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2;
     add(t,
         renamed(arrays::block_maxima(grid, finest), "search for the block size", Stage::kMajorants,
                 Stage::kMajorants),
@@ -118,7 +118,7 @@ void note_limits(const Scene& scene, const Grid& grid, const Limits& limits,
             case LimitId::kVoxels:
                 return voxel_count(grid);
             case LimitId::kSamples:
-                return std::uint64_t(scene.collectors.samples);
+                return std::uint64_t(scene.collectors.placement.samples);
             case LimitId::kPhotons:
                 return whole(work.photons);
             case LimitId::kPixels:

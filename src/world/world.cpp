@@ -65,7 +65,7 @@ Status load_medium_of(const Scene& scene, const HostMedia& given, const Context&
     if (world.direct_sky) return load_sky(scene, context, world.medium, world.layer);
     PILEUS_TRY(load_media(scene, context.limits, context.threads, world.media_plan, world.medium,
                           context.kernels, given));
-    close_weather_files(scene);
+    if (given.weather != nullptr) close_weather_files(scene, *given.weather);
     PILEUS_TRY(refine_cells(context, world));
     world.source.mean_density = mean_density(world.medium);
     return Status::ok();
@@ -98,14 +98,15 @@ Status load_particles_of(const Scene& scene, const HostMedia& given, const Conte
     HostMedia read = for_shadows(given);
     read.media[0].placed = &world.particles;
     PILEUS_TRY(load_medium_of(scene, read, context, world));
-    if (settings.y_up) turn_particles_y_up(world.particles);
-    const double scale = row != nullptr ? settings.extinction_per_m : settings.extinction_scale;
+    if (settings.source.y_up) turn_particles_y_up(world.particles);
+    const double scale =
+        row != nullptr ? settings.optics.extinction_per_m : settings.optics.extinction_scale;
     for (float& v : world.particles.density.span()) {
         const double per_m = double(v) * scale;
-        if (!(per_m <= kMostSigma))
+        if (!(per_m <= kMaxSigma))
             return Status::bad_input(medium_key(scene, settings) + ": a particle of " +
                                      number_text(per_m) + " per m, allowed: at most " +
-                                     number_text(kMostSigma));
+                                     number_text(kMaxSigma));
         v = float(single_or_0(per_m));
     }
     return Status::ok();
@@ -117,7 +118,7 @@ bool shows_particles(const Scene& scene) {
     if (scene.media.size() != 1) return false;
     if (const DensityRow* row = density_row(scene.media[0].density))
         return row->make_particles != nullptr;
-    return is_particle_format(scene.media[0].format);
+    return is_particle_format(scene.media[0].source.format);
 }
 
 Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,

@@ -202,11 +202,11 @@ void check_march(const MethodRow& row, const Fixture& f) {
     Planes* planes = nullptr;
     REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
     Bytes held = held_by(run, state.media.majorants);
-    held["sunlight's optical depth on nodes"] = state.light.nodes.optical_depth.bytes();
-    held["skylight on nodes"] = state.light.sky.light.bytes();
-    held["sky seen from nodes"] = state.light.sky.seen.bytes();
+    held["sunlight's optical depth on nodes"] = state.light.sun.nodes.optical_depth.bytes();
+    held["skylight on nodes"] = state.light.sky.nodes.light.bytes();
+    held["sky seen from nodes"] = state.light.sky.nodes.seen.bytes();
     held["blue noise"] = state.picture.noise.bytes();
-    held["sunlight on nodes of the sky"] = state.light.sky_light.words.bytes();
+    held["sunlight on nodes of the sky"] = state.light.sky.layer.words.bytes();
     for (const DensityLevel& level : state.media.coarse) {
         held["coarser density"] += level.density.bytes();
         held["its blocks"] += level.majorants.bytes();
@@ -221,8 +221,8 @@ void check_march(const MethodRow& row, const Fixture& f) {
     const bool thin = f.scene.raymarch.thin.scale > 1;
     held["marched pixels"] = bytes_held(state.picture.upsample.few) + (thin ? 8 * rows : 0);
     held["planes of whole rays"] =
-        whole_rays_held(run.view(0), {state.choice.settings.stop_below, thin});
-    add_ordinates(state.light.ordinates, held);
+        whole_rays_held(run.view(0), {state.choice.settings.march.stop_below, thin});
+    add_ordinates(state.light.ordinates.nodes, held);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 
@@ -379,13 +379,13 @@ TEST_CASE("arrays: one declaration gives the plan's row and the buffer, and no p
     REQUIRE(allocate(array, buffer));
     CHECK(buffer[0] == 0);
 
-    constexpr std::uint64_t kMost = ~std::uint64_t{0};
-    const Array<double> huge{"huge", kMost / 4};
-    CHECK(huge.bytes() == kMost);
-    CHECK(several(8, huge).count == kMost);
+    constexpr std::uint64_t kMax = ~std::uint64_t{0};
+    const Array<double> huge{"huge", kMax / 4};
+    CHECK(huge.bytes() == kMax);
+    CHECK(several(8, huge).count == kMax);
     MemoryTable most;
     add(most, huge, beside);
-    CHECK(most.rows()[0].bytes == kMost);
+    CHECK(most.rows()[0].bytes == kMax);
     const Status refused = allocate(huge, buffer);
     CHECK(refused.code == Code::kLimit);
     CHECK(refused.message.rfind("huge: ", 0) == 0);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace pileus;
 
-constexpr std::size_t kMost = kMaxSceneBytes - 100;
+constexpr std::size_t kMax = kMaxSceneBytes - 100;
 
 std::string repeated(const std::string& part, std::size_t bytes) {
     std::string text;
@@ -34,13 +34,13 @@ Status refusal(const std::string& text) {
 void refused(const std::string& text) { CHECK(refusal(text).code == Code::kBadInput); }
 
 TEST_CASE("nesting is refused before it can exhaust the stack") {
-    refused("a = " + repeated("[", kMost));
-    refused("a = " + repeated("{a=", kMost));
-    refused(repeated("a.", kMost) + "a = 1");
-    refused("[" + repeated("a.", kMost) + "a]");
-    refused("a = " + repeated("{a.a.a=", kMost));
-    refused(repeated("'a'.", kMost) + "a = 1");
-    const std::string deep = "]\nb = " + repeated("[", kMost);
+    refused("a = " + repeated("[", kMax));
+    refused("a = " + repeated("{a=", kMax));
+    refused(repeated("a.", kMax) + "a = 1");
+    refused("[" + repeated("a.", kMax) + "a]");
+    refused("a = " + repeated("{a.a.a=", kMax));
+    refused(repeated("'a'.", kMax) + "a = 1");
+    const std::string deep = "]\nb = " + repeated("[", kMax);
     // Strings of all four forms, closed in ways that could mislead the check into skipping the
     // rest.
     for (const char* text : {"[\"\"", "[\"\\\"\"", "[''", "['\\'", "[\"\"\"x\"\"\"\"\"",
@@ -111,22 +111,22 @@ TEST_CASE("a control character that the parser quotes is escaped") {
 }
 
 TEST_CASE("texts at the size limit are refused in good time") {
-    refused("a = \"" + repeated("x", kMost));
-    refused("seed = " + repeated("9", kMost));
-    refused("seed = 0." + repeated("9", kMost));
-    refused("seed = [" + repeated("1,", kMost) + "1]");
-    refused(repeated("[[medium]]\n", kMost));
-    refused("[output]\nfiles = [" + repeated("\"\",", kMost) + "]");
-    refused(repeated("\xff\xfe", kMost));
-    refused(std::string(kMost, '\0'));
-    refused(repeated("\xef\xbb\xbf", kMost));
+    refused("a = \"" + repeated("x", kMax));
+    refused("seed = " + repeated("9", kMax));
+    refused("seed = 0." + repeated("9", kMax));
+    refused("seed = [" + repeated("1,", kMax) + "1]");
+    refused(repeated("[[medium]]\n", kMax));
+    refused("[output]\nfiles = [" + repeated("\"\",", kMax) + "]");
+    refused(repeated("\xff\xfe", kMax));
+    refused(std::string(kMax, '\0'));
+    refused(repeated("\xef\xbb\xbf", kMax));
     CHECK(refusal(repeated("#", kMaxSceneBytes + 1)).code == Code::kLimit);
     std::string names;
-    for (int i = 0; names.size() < kMost; ++i) names += "k" + std::to_string(i) + "=1\n";
+    for (int i = 0; names.size() < kMax; ++i) names += "k" + std::to_string(i) + "=1\n";
     const Status status = refusal(names);
     CHECK(std::count(status.message.begin(), status.message.end(), '\n') <= 1001);
     CHECK(status.message.find("more faults") != std::string::npos);
-    refused("[\"" + repeated("y", kMost) + "\"]\n");
+    refused("[\"" + repeated("y", kMax) + "\"]\n");
 }
 
 TEST_CASE("hostile overrides end in a message") {

@@ -333,7 +333,7 @@ TEST_CASE("an unset data folder is a fault of the key that asks for it") {
     setenv("PILEUS_DATA_DIR", "/data", 1);
     Scene scene;
     CHECK(bool(pileus::read_scene_text(text, "s.toml", "d", {}, scene)));
-    CHECK(scene.media.at(0).file == "/data/a.pbrt");
+    CHECK(scene.media.at(0).source.file == "/data/a.pbrt");
     CHECK((before == nullptr ? unsetenv("PILEUS_DATA_DIR")
                              : setenv("PILEUS_DATA_DIR", saved.c_str(), 1)) == 0);
 }

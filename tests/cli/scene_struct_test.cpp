@@ -23,9 +23,9 @@ Scene whole_scene() {
     Scene scene;
     scene.media.emplace_back();
     scene.media[0].density = "uniform:box";
-    scene.media[0].has_bounds = true;
-    scene.media[0].bounds_m = {Double3{0, 0, 0}, Double3{1, 1, 1}};
-    scene.media[0].extinction_per_m = 1;
+    scene.media[0].box.has_bounds = true;
+    scene.media[0].box.bounds_m = {Double3{0, 0, 0}, Double3{1, 1, 1}};
+    scene.media[0].optics.extinction_per_m = 1;
     scene.solids.emplace_back();
     scene.solids[0].file = "a.ply";
     return scene;
@@ -112,28 +112,29 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           }) ==
           "host: camera.fov_deg: conflicts with projection \"orthographic\", 30, allowed: left "
           "out");
-    CHECK(fault([](Scene& s) { s.media[0].has_bounds = false; }) ==
+    CHECK(fault([](Scene& s) { s.media[0].box.has_bounds = false; }) ==
           "scene: medium.0.bounds_m: missing, nothing, allowed: [[x, y, z], [x, y, z]], the lowest "
           "and highest corner in metres");
     CHECK(
-        fault([](Scene& s) { s.media[0].phase.type = "hg-draine"; }) ==
+        fault([](Scene& s) { s.media[0].optics.phase.type = "hg-draine"; }) ==
         "scene: medium.0.phase.droplet_diameter_um: missing, nothing, allowed: a number, required "
         "by \"hg-draine\"");
     // A g of 0 may be meant.
-    CHECK(fault([](Scene& s) { s.media[0].phase.type = "henyey-greenstein"; }) == "");
+    CHECK(fault([](Scene& s) { s.media[0].optics.phase.type = "henyey-greenstein"; }) == "");
     CHECK(fault([](Scene& s) {
-              s.media[0].phase.type = "two-lobe";
-              s.media[0].phase.numbers = {{"g", 0.5}, {"g1", 0.8}, {"weight", 2}};
+              s.media[0].optics.phase.type = "two-lobe";
+              s.media[0].optics.phase.numbers = {{"g", 0.5}, {"g1", 0.8}, {"weight", 2}};
           }) ==
           "scene: medium.0.phase.weight: out of range, 2, allowed: number in [0, 1]\n"
           "scene: medium.0.phase.g: conflicts with phase.type \"two-lobe\", 0.5, allowed: left "
           "out");
-    const std::string unknown = fault([](Scene& s) { s.media[0].phase.numbers["G1"] = 0.5; });
+    const std::string unknown =
+        fault([](Scene& s) { s.media[0].optics.phase.numbers["G1"] = 0.5; });
     CHECK(unknown.find("scene: medium.0.phase.numbers: unknown key, \"G1\", allowed: g, g1, ") ==
           0);
     CHECK(unknown.find("; did you mean g1?") != std::string::npos);
     CHECK(fault([](Scene& s) {
-              s.media[0].phase.type = "mie";
+              s.media[0].optics.phase.type = "mie";
           }).find("scene: medium.0.phase.type: unknown value, \"mie\", allowed: isotropic, ") == 0);
     CHECK(fault([](Scene& s) { s.media[0].density.clear(); }) ==
           "scene: medium.0.density: empty, \"\", allowed: the path of a file");
@@ -145,8 +146,8 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
               ", or nothing beside the path of a file");
     CHECK(fault([](Scene& s) {
               s.media[0].density.clear();
-              s.media[0].file = "a.raw";
-              s.media[0].format = "raw";
+              s.media[0].source.file = "a.raw";
+              s.media[0].source.format = "raw";
           }) ==
           "scene: medium.0.density.size: missing, nothing, allowed: density = { file = \"...\", "
           "type = \"float32\", size = [nx, ny, nz] }");

@@ -95,22 +95,22 @@ TEST_CASE("a full scene gives what it says, colours in both forms, and what a fi
     CHECK(scene.view_files.sky_map == "a.PFM");
     CHECK(scene.sky.map_rotation_deg == -20);
     REQUIRE(scene.media.size() == 3);
-    CHECK(scene.media[0].phase.type == "henyey-greenstein");
-    CHECK(scene.media[0].phase.numbers.at("g") == -1);
+    CHECK(scene.media[0].optics.phase.type == "henyey-greenstein");
+    CHECK(scene.media[0].optics.phase.numbers.at("g") == -1);
     CHECK(scene.media[1].density.empty());
-    CHECK(scene.media[1].file == "a.dat");
-    CHECK(scene.media[1].format == "raw");
-    CHECK(scene.media[1].raw_type == RawType::kUint16);
-    CHECK(scene.media[1].raw_big_endian);
-    CHECK(scene.media[2].format == "openvdb");
-    CHECK(scene.media[2].grid == "fog");
-    CHECK(scene.media[2].phase.type == "cloud");
-    CHECK(scene.media[2].phase.numbers.at("effective_radius_um") == 10.7);
+    CHECK(scene.media[1].source.file == "a.dat");
+    CHECK(scene.media[1].source.format == "raw");
+    CHECK(scene.media[1].source.raw_type == RawType::kUint16);
+    CHECK(scene.media[1].source.raw_big_endian);
+    CHECK(scene.media[2].source.format == "openvdb");
+    CHECK(scene.media[2].source.grid == "fog");
+    CHECK(scene.media[2].optics.phase.type == "cloud");
+    CHECK(scene.media[2].optics.phase.numbers.at("effective_radius_um") == 10.7);
     CHECK(scene.collectors.photons == 2000000);
     CHECK_FALSE(scene.collectors.local_tracking);
-    CHECK(scene.collectors.lobe_closure);
-    CHECK_FALSE(scene.collectors.camera_closure);
-    CHECK(scene.raymarch.many);
+    CHECK(scene.collectors.closure.lobe);
+    CHECK_FALSE(scene.collectors.closure.camera);
+    CHECK(scene.raymarch.scattering.many);
     CHECK(scene.output.layer_order);
     CHECK(scene.output.files == std::vector<std::string>{"x.exr", "y.pfm"});
     CHECK(scene.animation.moves_camera);
@@ -121,20 +121,20 @@ TEST_CASE("a full scene gives what it says, colours in both forms, and what a fi
 
 TEST_CASE("the paper's variant changes three defaults, only where the keys are not given") {
     const CollectorSettings best = good(kCamera).collectors;
-    CHECK_FALSE(best.billboards);
-    CHECK_FALSE(best.rejection_sampler);
+    CHECK_FALSE(best.display.billboards);
+    CHECK_FALSE(best.placement.rejection_sampler);
     CHECK(best.first_order_split);
     const CollectorSettings paper = good(kCamera, {"collectors.variant=paper"}).collectors;
-    CHECK(paper.billboards);
-    CHECK(paper.rejection_sampler);
+    CHECK(paper.display.billboards);
+    CHECK(paper.placement.rejection_sampler);
     CHECK_FALSE(paper.first_order_split);
-    CHECK(paper.bands == best.bands);
+    CHECK(paper.closure.bands == best.closure.bands);
     const CollectorSettings mixed =
         good(kCamera + "[collectors]\nvariant = \"paper\"\nfirst_order_split = true\n",
              {"collectors.display=march"})
             .collectors;
-    CHECK_FALSE(mixed.billboards);
-    CHECK(mixed.rejection_sampler);
+    CHECK_FALSE(mixed.display.billboards);
+    CHECK(mixed.placement.rejection_sampler);
     CHECK(mixed.first_order_split);
 }
 
@@ -152,19 +152,19 @@ TEST_CASE("overrides change, add and create") {
     CHECK(scene.camera.position_m == Double3{0, -9, 6});
     CHECK(scene.sun.present);
     CHECK(scene.sun.elevation_deg == 20);
-    CHECK(scene.raymarch.steps == 3);
+    CHECK(scene.raymarch.march.steps == 3);
     REQUIRE(scene.media.size() == 2);
     CHECK(scene.media[0].density == "uniform:sphere");
-    CHECK(scene.media[0].albedo == Float3{0.9f, 0.9f, 0.9f});
-    CHECK(scene.media[0].phase.numbers.at("g") == 0.75);
-    CHECK(scene.media[1].file == "a.pbrt");
+    CHECK(scene.media[0].optics.albedo == Float3{0.9f, 0.9f, 0.9f});
+    CHECK(scene.media[0].optics.phase.numbers.at("g") == 0.75);
+    CHECK(scene.media[1].source.file == "a.pbrt");
     CHECK(scene.output.layer_depth);
     CHECK(scene.output.layer_error);
     CHECK_FALSE(scene.output.layer_cloud);
     CHECK(scene.output.files == std::vector<std::string>{"out/a.png", "b.exr"});
     CHECK(scene.seed == 2);
     CHECK(scene.collectors.photons == 1000);
-    CHECK(good(kCamera, {"collectors.closure=camera"}).collectors.camera_closure);
+    CHECK(good(kCamera, {"collectors.closure=camera"}).collectors.closure.camera);
     // The text stored in pictures makes them again: what was set is added as comments.
     CHECK(scene.text.substr(0, kCamera.size()) == kCamera);
     CHECK(scene.text.find("\n# --set collectors.photons=1_000") != std::string::npos);
@@ -210,9 +210,9 @@ TEST_CASE("the scenes in assets are sound") {
     const Status read = read_scene_file("assets/scenes/cumulus.toml", {}, cumulus);
     CHECK_MESSAGE(bool(read), read.message);
     REQUIRE(cumulus.media.size() == 1);
-    CHECK(cumulus.media[0].resolution == std::array<int, 3>{160, 160, 110});
-    CHECK(cumulus.media[0].bounds_m[1] == Double3{800, 800, 1700});
-    CHECK(cumulus.media[0].phase.numbers.at("g") == 0.85);
+    CHECK(cumulus.media[0].box.resolution == std::array<int, 3>{160, 160, 110});
+    CHECK(cumulus.media[0].box.bounds_m[1] == Double3{800, 800, 1700});
+    CHECK(cumulus.media[0].optics.phase.numbers.at("g") == 0.85);
     CHECK(cumulus.output.files ==
           std::vector<std::string>{"../../out/cumulus.png", "../../out/cumulus.exr"});
     const char* before = std::getenv("PILEUS_DATA_DIR");
@@ -222,16 +222,16 @@ TEST_CASE("the scenes in assets are sound") {
         const Status status = read_scene_file(name, {}, scene);
         CHECK_MESSAGE(bool(status), status.message);
         REQUIRE(scene.media.size() == 1);
-        CHECK(scene.media[0].y_up);
-        CHECK(scene.media[0].format == "pbrt");
+        CHECK(scene.media[0].source.y_up);
+        CHECK(scene.media[0].source.format == "pbrt");
     }
     for (const char* name : {"assets/scenes/rico.toml", "assets/scenes/stratocumulus.toml"}) {
         Scene scene;
         const Status status = read_scene_file(name, {}, scene);
         CHECK_MESSAGE(bool(status), status.message);
         REQUIRE(scene.media.size() == 1);
-        CHECK(scene.media[0].format == "les");
-        CHECK(scene.media[0].extinction_scale == 1);
+        CHECK(scene.media[0].source.format == "les");
+        CHECK(scene.media[0].optics.extinction_scale == 1);
     }
     if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
 }

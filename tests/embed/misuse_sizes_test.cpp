@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kHuge = 1u << 31, kMost = UINT32_MAX;
+constexpr std::uint32_t kHuge = 1u << 31, kMax = UINT32_MAX;
 
 /// A small marched cumulus, and what calls of its session are refused with.
 struct Refusals {
@@ -87,9 +87,9 @@ TEST_CASE("misuse: sizes of a sky map, none of which is looked at alone") {
                                       {kHuge, 0},
                                       {0, kHuge},
                                       {kHuge, kHuge / 2},
-                                      {kMost - 1, kHuge - 1},
+                                      {kMax - 1, kHuge - 1},
                                       {kHuge, kHuge},
-                                      {0, kMost}};
+                                      {0, kMax}};
     for (const auto& size : sizes)
         for (const float* map : {texels.data(), static_cast<const float*>(nullptr)}) {
             CAPTURE(size[0]);
@@ -141,7 +141,7 @@ TEST_CASE("misuse: numbers of cameras, suns, grounds and places") {
         std::function<void(C&)> spoil;
     } rows[] = {
         {"camera.resolution", [](C& c) { c.width = kHuge; }},
-        {"camera.resolution", [](C& c) { c.height = kMost; }},
+        {"camera.resolution", [](C& c) { c.height = kMax; }},
         {"camera.resolution", [](C& c) { c.width = c.height = kHuge; }},
         {"camera.resolution", [](C& c) { c.width = 32769, c.height = 1; }},
         {"camera.height_m", [](C& c) { c.height_m = -1; }},
@@ -225,13 +225,13 @@ TEST_CASE("misuse: lights one by one, and as an array") {
     light.type = kHuge;
     r.refused(set(light), "light.type: ");
     light.type = PILEUS_POINT;
-    light.shadow_samples = kMost;
+    light.shadow_samples = kMax;
     r.refused(set(light), "light.shadow_samples: ");
     light.shadow_samples = 0;
     std::vector<L> three(3, light);
     r.refused(pileus_session_set_lights(r.s, nullptr, 3, r.e), "lights: null");
-    r.refused(pileus_session_set_lights(r.s, three.data(), kMost, r.e), "lights: ");
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof(L)) - 8, kHuge, kMost}) {
+    r.refused(pileus_session_set_lights(r.s, three.data(), kMax, r.e), "lights: ");
+    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof(L)) - 8, kHuge, kMax}) {
         three[2].struct_size = size;
         r.refused(pileus_session_set_lights(r.s, three.data(), 3, r.e), "lights[2]: struct_size");
     }
@@ -266,7 +266,7 @@ TEST_CASE("misuse: rows of pictures and depths, and what is drawn into them") {
     frame.exposure_stops = 0;
     for (const auto wrong :
          {&pileus_frame::format, &pileus_frame::blend, &pileus_frame::depth_kind})
-        for (const std::uint32_t value : {3u, kHuge, kMost}) {
+        for (const std::uint32_t value : {3u, kHuge, kMax}) {
             pileus_frame given = frame;
             given.*wrong = value;
             r.refused(pileus_session_render(r.s, &given, r.e), "frame.");
@@ -281,7 +281,7 @@ TEST_CASE("misuse: work, costs and the governor's own numbers") {
     Refusals r;
     using W = pileus_work;
     for (const auto at : {&W::scale, &W::temporal, &W::steps, &W::light_refresh})
-        for (const std::uint32_t wrong : {65u * 1024, (1u << 30) + 1, kHuge, kMost}) {
+        for (const std::uint32_t wrong : {65u * 1024, (1u << 30) + 1, kHuge, kMax}) {
             auto work = cleared<W>();
             work.*at = wrong;
             r.refused(pileus_session_set_work(r.s, &work, r.e), ": ");
@@ -310,8 +310,8 @@ TEST_CASE("misuse: work, costs and the governor's own numbers") {
     }
     auto governor = cleared<pileus_governor>();
     governor.target_s = 0.04;
-    governor.level = kMost;
-    for (std::uint32_t& v : governor.own_counts) v = kMost;
+    governor.level = kMax;
+    for (std::uint32_t& v : governor.own_counts) v = kMax;
     r.host.check(pileus_session_govern(r.s, &governor, 1, &work, r.e));
     for (std::size_t i = 0; i < 16; ++i) {
         pileus_governor given = governor;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kHuge = 1u << 31, kMost = UINT32_MAX;
+constexpr std::uint32_t kHuge = 1u << 31, kMax = UINT32_MAX;
 
 template <class Struct>
 std::function<void(Struct&, double)> number(double Struct::*at) {
@@ -49,7 +49,7 @@ TEST_CASE("misuse: densities and particles of a world") {
     for (std::uint32_t& n : sound.size) n = 2;
     sound.values = cells.data();
     for (int axis = 0; axis < 3; ++axis)
-        for (const std::uint32_t wrong : {0u, 4097u, kHuge, kMost}) {
+        for (const std::uint32_t wrong : {0u, 4097u, kHuge, kMax}) {
             pileus_density given = sound;
             given.size[axis] = wrong;
             refused({given}, 1, "densities[0]: size: ");
@@ -66,15 +66,15 @@ TEST_CASE("misuse: densities and particles of a world") {
     given.values = nullptr;
     refused({given}, 1, "densities[0]: values: null");
     given = sound;
-    for (const std::uint32_t medium : {2u, kHuge, kMost}) {
+    for (const std::uint32_t medium : {2u, kHuge, kMax}) {
         given.medium = medium;
         refused({given}, 1, "densities[0]: no medium");
     }
     refused({sound, sound}, 2, "densities[1]: medium 0 a second time");
     refused({sound}, 3, "density_count: 3, allowed: 0 to 2");
-    refused({sound}, kMost, "density_count: ");
+    refused({sound}, kMax, "density_count: ");
     refused({}, 1, "densities: null");
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof given) + 8, kMost}) {
+    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof given) + 8, kMax}) {
         given = sound;
         given.struct_size = size;
         refused({sound, given}, 2, "densities[1]: struct_size");
@@ -140,7 +140,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
         {"size: 0", [](P& p) { p.width = 0; }},
         {"size: 0", [](P& p) { p.height = 0; }},
         {"size: ", [](P& p) { p.width = kHuge; }},
-        {"size: ", [](P& p) { p.height = kMost; }},
+        {"size: ", [](P& p) { p.height = kMax; }},
         {"size: ", [](P& p) { p.width = p.height = kHuge; }},
         {"channels: 0", [](P& p) { p.channels = 0; }},
         {"channels: 2", [](P& p) { p.channels = 2; }},
@@ -166,7 +166,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
     const SceneHandle scene = scene_of(kSmallCumulus, {"method.name=raymarch"});
     auto plan = cleared<pileus_plan>();
     auto host = cleared<pileus_host>();
-    for (const std::uint32_t threads : {1025u, kHuge, kMost}) {
+    for (const std::uint32_t threads : {1025u, kHuge, kMax}) {
         host.threads = threads;
         refused(pileus_plan_scene(scene.get(), &host, &plan, &out.error), "host.threads: ");
     }
@@ -174,7 +174,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
     host.release = [](void*, void*) {};
     refused(pileus_plan_scene(scene.get(), &host, &plan, &out.error), "host: allocate and release");
     pileus_scene* made = nullptr;
-    refused(pileus_scene_parse("", nullptr, nullptr, kMost, &made, &out.error), "overrides: null");
+    refused(pileus_scene_parse("", nullptr, nullptr, kMax, &made, &out.error), "overrides: null");
     const char* const texts[2] = {"seed=1", nullptr};
     refused(pileus_scene_parse("", nullptr, texts, 2, &made, &out.error), "overrides[1]: null");
 
@@ -185,13 +185,13 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
     const auto place = [&](std::uint32_t count) {
         return pileus_clouds_place(clouds, two.data(), count, &out.error);
     };
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof two[0]) - 8, kMost}) {
+    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof two[0]) - 8, kMax}) {
         two[1].struct_size = size;
         refused(place(2), "places[1]: struct_size");
     }
     two[1] = at(0, 0, 0);
-    refused(place(kMost), "count: ");
-    two[1].kind = kMost;
+    refused(place(kMax), "count: ");
+    two[1].kind = kMax;
     refused(place(2), "places[1].kind: ");
     using C = pileus_cloud;
     for (const auto& spoil : {number(&C::offset_m, 0), number(&C::offset_m, 1),
@@ -209,7 +209,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
             refused(pileus_clouds_set_detail(clouds, &detail, &out.error), "detail.");
         }
     for (const auto at : {&D::near_scale, &D::blend_frames})
-        for (const std::uint32_t wrong : {kHuge, kMost}) {
+        for (const std::uint32_t wrong : {kHuge, kMax}) {
             auto detail = cleared<D>();
             detail.*at = wrong;
             refused(pileus_clouds_set_detail(clouds, &detail, &out.error), "detail.");

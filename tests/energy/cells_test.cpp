@@ -159,9 +159,9 @@ TEST_CASE("cells: the ledger balances to the last quantum, a million photons int
     Floored floored;
     floor_majorants(rig, cells, true, floored);
     use_cells(rig, cells, floored);
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = -3;
-    rig.lighting.ground_albedo = 0.5;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = -3;
+    rig.lighting.ground.albedo = 0.5;
     add_light(rig, beam_light(rig.medium, {0.6, 0, -0.8}));
     const TraceTally t = shoot(rig, 1'000'000, 5);
     for (std::size_t c = 0; c < 3; ++c) {

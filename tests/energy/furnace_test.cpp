@@ -65,7 +65,7 @@ void make_furnace(Furnace& f) {
     context.kernels = f.rig.kernels;
     context.report = &report;
     CollectorSettings settings;
-    settings.samples = 1000;
+    settings.placement.samples = 1000;
     REQUIRE(prepare_collectors(f.rig.medium, settings, 1, context, f.prepared));
     f.rig.collector_of_voxel.swap(f.prepared.collector_of_voxel);
     f.rig.collectors = f.prepared.collectors.size();
@@ -169,9 +169,9 @@ void check_furnace(const std::string& name, Furnace& f, std::uint64_t photons) {
 }
 
 void add_ground(Furnace& f, double z, double albedo) {
-    f.rig.lighting.ground = true;
-    f.rig.lighting.ground_z = z;
-    f.rig.lighting.ground_albedo = albedo;
+    f.rig.lighting.ground.present = true;
+    f.rig.lighting.ground.z = z;
+    f.rig.lighting.ground.albedo = albedo;
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace {
 Rig rig_over_ground(double tau, float g, double ground_albedo, double ground_z) {
     Rig rig = make_rig({1, 1, 1}, {100, 100, 100}, tau / 100);
     rig.medium.optics[0].phase = {kPhaseHg, g, 0, 1};
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = ground_z;
-    rig.lighting.ground_albedo = ground_albedo;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = ground_z;
+    rig.lighting.ground.albedo = ground_albedo;
     return rig;
 }
 

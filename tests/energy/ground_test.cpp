@@ -106,9 +106,9 @@ TEST_CASE("ground: what a bounce sends up comes back with the ground's albedo") 
     const double tau = 1e-3, albedo = 0.4;
     Rig rig = make_slab(tau, 1, 0);
     add_light(rig, beam_light(rig.medium, {0, 0, -1}));
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = 0;
-    rig.lighting.ground_albedo = albedo;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = 0;
+    rig.lighting.ground.albedo = albedo;
     const double down = -0.5 * std::expm1(-tau);
     // Scattering once more on the way: at most tau (1 + ln(1/tau)) of what scattered.
     const double model = down * tau * (2 + std::log(1 / tau));

@@ -125,7 +125,7 @@ TEST_CASE("light of spheres scattered once is the integral over ray and sphere")
                        [&](int more, std::uint64_t seed) {
                            PathInput in = path_input(
                                rig, make_flat_view({2, -1, 2}, {0, 1, 0}, 1e-3f, 4, 4), seed);
-                           in.max_depth = 1;
+                           in.rules.max_depth = 1;
                            in.jitter = false;
                            return film_average(trace_film(in, 60000u * unsigned(more)));
                        });

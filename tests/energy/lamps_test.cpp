@@ -95,7 +95,7 @@ double single(const LampParams& lamp, const Double3& o, double sigma, double alb
 Mean once_scattered(Rig& rig, const Double3& o, unsigned samples, std::uint64_t seed) {
     PathInput in = path_input(
         rig, make_flat_view({float(o[0]), float(o[1]), float(o[2])}, {0, 1, 0}, 1e-3f, 4, 4), seed);
-    in.max_depth = 1;
+    in.rules.max_depth = 1;
     in.jitter = false;
     // Pixels of a millimetre: one ray, for all that is compared here.
     return film_average(trace_film(in, samples));

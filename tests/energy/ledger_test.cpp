@@ -26,9 +26,9 @@ Rig make_cloud(const Float3& albedo, float g) {
 }
 
 void give_ground(Rig& rig, double z, double albedo) {
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = z;
-    rig.lighting.ground_albedo = albedo;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = z;
+    rig.lighting.ground.albedo = albedo;
 }
 
 Light make_light(const Medium& m, int kind) {

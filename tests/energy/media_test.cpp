@@ -89,9 +89,9 @@ TEST_CASE("media: the ledger balances to the quantum, ground and colours include
     Rig rig = make_pair(0.01f, optics_of({0.9f, 0.99f, 1}, {kPhaseHg, 0.8f, 0, 1}),
                         optics_of({0.5f, 0.5f, 0.5f}, {kPhaseRayleigh, 0, 0, 1}));
     rig.medium.channels = 3;
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = -1;
-    rig.lighting.ground_albedo = 0.7;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = -1;
+    rig.lighting.ground.albedo = 0.7;
     add_light(rig, beam_light(rig.medium, {0.48, 0.36, -0.8}));
     const TraceTally t = shoot(rig, 50'000, 7);
     CHECK(t.shadow.emitted[0] > 0);

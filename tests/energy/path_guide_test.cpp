@@ -3,14 +3,13 @@
 // in: peaked phase functions, suns all around -> out: means, largest samples, closed forms.
 // docs/path.md, "Guide", "The sun's disc".
 #include "kernels_cpu/media/phase.h"
+#include "src/base/angles.h"
 #include "src/world/phase/medium_phase.h"
 #include "tests/support/path_harness.h"
 
 namespace {
 
 using namespace path_test;
-
-constexpr double kPi64 = 3.14159265358979323846;
 
 PhaseParams hg(float g) {
     PhaseParams p;
@@ -92,9 +91,9 @@ struct Pair {
 
 Pair trace_both(PathInput in, unsigned with, unsigned without) {
     Pair pair;
-    in.guide = true;
+    in.rules.guide = true;
     pair.on = trace_film(in, with);
-    in.guide = false;
+    in.rules.guide = false;
     in.seed += 1000;
     pair.off = trace_film(in, without);
     return pair;
@@ -139,11 +138,11 @@ TEST_CASE("guided paths of a water cloud over a bright ground, by a disc and a s
     set_sky(rig, 0.05);
     set_ground(rig, -30, 0.8);
     PathInput in = path_input(rig, look_north(), 6);
-    in.sun_radius_deg = 2;
+    in.rules.sun_radius_deg = 2;
     check_pair("cloud of 10 um, ground, disc, sky", trace_both(in, 500, 2000));
     // Orders apart: what is not weighed as it should be shows in the low ones.
     for (int depth : {1, 2, 3}) {
-        in.max_depth = depth;
+        in.rules.max_depth = depth;
         check_pair(("the same, depth " + std::to_string(depth)).c_str(), trace_both(in, 500, 2000));
     }
 }
@@ -171,7 +170,7 @@ TEST_CASE("no guided sample of a water cloud is a firefly") {
     shine(rig, sun_at_angle(145));
     PathInput in = path_input(rig, look_north(), 8);
     const auto largest = [&](bool guide) {
-        in.guide = guide;
+        in.rules.guide = guide;
         double most = 0;
         for (int run = 0; run < 400; ++run) {
             in.seed = std::uint64_t(run);
@@ -192,7 +191,7 @@ TEST_CASE("guided paths in corners: suns, single voxels, black and dense media")
     const auto traced = [](Rig& rig, std::array<float, 3> sun, double disc) {
         shine(rig, sun);
         PathInput in = path_input(rig, look_north(), 9);
-        in.sun_radius_deg = disc;
+        in.rules.sun_radius_deg = disc;
         return film_average(trace_film(in, 64)).value;
     };
     for (double disc : {0.0, 10.0}) {
@@ -229,7 +228,7 @@ TEST_CASE("the sun's disc lights the ground with the irradiance of the point") {
         // The sum of all directions of the disc is its middle, whatever its size.
         check_mean(name, 0.3 * 3 * 0.8 / kPi64, [&](int more, std::uint64_t seed) {
             PathInput in = path_input(rig, make_view({1, 1, 9}, {0, 0, -1}, 8, 8), seed);
-            in.sun_radius_deg = radius;
+            in.rules.sun_radius_deg = radius;
             return film_average(trace_film(in, 4096u * unsigned(more)));
         });
     }
@@ -247,7 +246,7 @@ TEST_CASE("half of a disc on the horizon lights the ground, and none of what has
         "ground under half a disc", 2.0 / 3 * std::sin(a) / (kPi64 * kPi64),
         [&](int more, std::uint64_t seed) {
             PathInput in = path_input(rig, make_view({1, 1, 9}, {0, 0, -1}, 8, 8), seed);
-            in.sun_radius_deg = radius;
+            in.rules.sun_radius_deg = radius;
             return film_average(trace_film(in, 4096u * unsigned(more)));
         },
         2.0 / 3 * std::sin(a) / (kPi64 * kPi64) * a * a);
@@ -269,8 +268,8 @@ TEST_CASE("a disc widens the peak of a thin ball by the mean over its directions
         [&](int more, std::uint64_t seed) {
             PathInput in =
                 path_input(rig, make_flat_view({0.5f, -5, 0.5f}, {0, 1, 0}, 0.5f, 8, 8), seed);
-            in.max_depth = 1;
-            in.sun_radius_deg = radius;
+            in.rules.max_depth = 1;
+            in.rules.sun_radius_deg = radius;
             return film_average(trace_film(in, 100000u * unsigned(more)));
         },
         exact * 2 * tau);

@@ -148,9 +148,9 @@ TEST_CASE("sky map: the ledger of coloured light balances in every channel, shad
     Rig rig = make_box();
     set_albedo(rig, {0.9f, 0.95f, 1.0f});
     rig.medium.channels = 3;
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = -5;
-    rig.lighting.ground_albedo = 0.5;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = -5;
+    rig.lighting.ground.albedo = 0.5;
     const SkyMap map = sky_map_of(rough_sky(12, 7, true), true, rig.medium.extent_m);
     light_by_map(rig, map);
     const TraceTally t = shoot(rig, 200'000, 3);

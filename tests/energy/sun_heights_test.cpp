@@ -5,6 +5,7 @@
 // forms, and of all methods against paths. docs/atmosphere.md, "The sun's colour", "Columns"
 #include <cmath>
 
+#include "src/base/angles.h"
 #include "src/world/atmosphere/air_column.h"
 #include "src/world/environment.h"
 #include "tests/io/temp_folder.h"
@@ -14,8 +15,6 @@ using namespace pileus;
 using namespace render_test;
 
 namespace {
-
-constexpr double kPi64 = 3.14159265358979323846;
 
 /// A thin veil from 9 to 11 km, a camera close above the ground.
 const char* const kVeil = R"(
@@ -81,14 +80,14 @@ TEST_CASE("sun in air: ground, media and any height have it through the air abov
         const int i = int(c);
         // Floats, and depths that are linear from one row to the next: 2e-4 of them.
         CHECK(light.sun_irradiance[i] == doctest::Approx(share_at(air, 10, 12, c)).epsilon(1e-4));
-        CHECK(light.ground_sun[i] ==
+        CHECK(light.ground.sun[i] ==
               doctest::Approx(0.5 / kPi64 * sine * share_at(air, 0, 12, c)).epsilon(1e-4));
         for (const double height_km : {0.0, 0.333, 1.02, 3.0, 7.77, 10.0, 20.01})
             CHECK(sun_at_height(light, 1000 * height_km - 9000)[i] ==
                   doctest::Approx(share_at(air, height_km, 12, c)).epsilon(1e-3));
     }
     // Under this veil one sun for all would light the ground twice as much in blue.
-    CHECK(light.ground_beam[2] > 2 * light.ground_sun[2]);
+    CHECK(light.ground.beam[2] > 2 * light.ground.sun[2]);
 }
 
 TEST_CASE("sun in air: the ground under high media is that of paths in every method") {

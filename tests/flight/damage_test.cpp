@@ -64,7 +64,7 @@ std::string packed_march(PackedHead& head) {
 TEST_CASE("a packed grid that is not what its numbers say is refused") {
     std::vector<Change> changes = {
         [](World& w) { w.medium.count = 0; },
-        [](World& w) { w.medium.count = kMostMedia + 1; },
+        [](World& w) { w.medium.count = kMaxMedia + 1; },
         [](World& w) { w.medium.count = 2; },
         [](World& w) { w.medium.channels = 2; },
         [](World& w) { w.medium.volume.density.truncate(7); },
@@ -120,7 +120,7 @@ TEST_CASE("packed noises of a sky that do not fit each other are refused") {
     add([](NoiseTexture& noise, NoiseView&) { noise.size = 513; });
     add([](NoiseTexture&, NoiseView& view) { view.size += 1; });
     add([](NoiseTexture&, NoiseView& view) { view.last = -1; });
-    add([](NoiseTexture&, NoiseView& view) { view.last = kMostNoiseLevels; });
+    add([](NoiseTexture&, NoiseView& view) { view.last = kMaxNoiseLevels; });
     add([](NoiseTexture& noise, NoiseView&) { noise.words.truncate(9); });
     add([](NoiseTexture& noise, NoiseView&) { noise.largest.truncate(0); });
     // Without words there is no share of it.

@@ -110,7 +110,7 @@ TEST_CASE("what a flight does not have is refused when it is packed") {
           "1 to 16");
     // Foreign libraries; a method that has nothing of them may be told of them.
     scene = plain;
-    scene.collectors.compositor = Compositor::kOsmesa;
+    scene.collectors.display.compositor = Compositor::kOsmesa;
     CHECK(pack_scene(scene, *world, bytes).message ==
           "scene: collectors.compositor: not packed, allowed: builtin");
     scene.method = "raymarch";

@@ -75,7 +75,7 @@ void fly(const pileus::Scene& scene, const std::string& bytes, std::vector<unsig
         ok(pileus_session_set_frame(session, number, &error));
         const pileus_code moved = pileus_session_set_camera(session, &camera, &error);
         // Light that was gathered towards one view is for that view alone.
-        if (scene.collectors.camera_closure) {
+        if (scene.collectors.closure.camera) {
             CHECK(moved == PILEUS_BAD_INPUT);
             CHECK(std::string(error.message).find("closure \"camera\"") != std::string::npos);
             break;

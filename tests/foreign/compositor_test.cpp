@@ -132,7 +132,7 @@ TEST_CASE("compositor: refused where it cannot show what the scene asks for") {
     };
     Scene scene;
     CHECK(bool(read("[collectors]\ndisplay = \"billboards\"\ncompositor = \"egl\"\n", scene)));
-    CHECK(scene.collectors.compositor == Compositor::kEgl);
+    CHECK(scene.collectors.display.compositor == Compositor::kEgl);
     CHECK(
         read("[collectors]\ncompositor = \"osmesa\"\n", scene).message ==
         "s.toml:5:14: collectors.compositor: draws billboards only, \"osmesa\", allowed: builtin, "

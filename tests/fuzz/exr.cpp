@@ -7,20 +7,20 @@
 #include "tests/fuzz/target.h"
 
 int fuzz::exr(const std::uint8_t* data, std::size_t size) {
-    constexpr std::uint64_t kMostPixels = 4096;
+    constexpr std::uint64_t kMaxPixels = 4096;
     pileus::Image image;
     const pileus::Status status =
-        pileus::decode_exr("p.exr", fuzz::text_of(data, size), image, kMostPixels);
+        pileus::decode_exr("p.exr", fuzz::text_of(data, size), image, kMaxPixels);
     if (!status) {
         fuzz::check_fault(status, "p.exr", true);
         return 0;
     }
-    fuzz::check_picture(image, kMostPixels);
+    fuzz::check_picture(image, kMaxPixels);
     std::string chosen;
     pileus::Status taken = pileus::choose_layer("p.exr", "", image, chosen);
-    if (taken) taken = pileus::fit_display_window("p.exr", image, kMostPixels);
+    if (taken) taken = pileus::fit_display_window("p.exr", image, kMaxPixels);
     if (taken)
-        fuzz::check_picture(image, kMostPixels);
+        fuzz::check_picture(image, kMaxPixels);
     else
         fuzz::check_fault(taken, "p.exr", true);
     return 0;

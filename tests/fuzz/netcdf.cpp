@@ -22,7 +22,7 @@ int fuzz::netcdf(const std::uint8_t* data, std::size_t size) {
     // A grid has its own cells.
     const bool grid = pileus::netcdf_grid(file.head(), medium.weather) != nullptr;
     if (grid) medium.weather.in_cloud = false;
-    if (!grid) medium.resolution = {4, 3, 5};
+    if (!grid) medium.box.resolution = {4, 3, 5};
     pileus::VolumeHead head;
     pileus::Volume volume;
     const pileus::Status seen = pileus::weather_head(medium, file, head);

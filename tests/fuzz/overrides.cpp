@@ -63,12 +63,12 @@ void check_again(const Scene& scene, std::size_t count) {
 }  // namespace
 
 int fuzz::overrides(const std::uint8_t* data, std::size_t size) {
-    constexpr std::size_t kMost = 8;
+    constexpr std::size_t kMax = 8;
     std::vector<std::string> options(1);
     for (std::size_t i = 0; i < size; ++i) {
         if (data[i] != 0)
             options.back() += char(data[i]);
-        else if (options.size() < kMost)
+        else if (options.size() < kMax)
             options.emplace_back();
     }
     Scene scene;

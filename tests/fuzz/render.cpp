@@ -12,7 +12,7 @@ namespace {
 
 using namespace pileus;
 
-constexpr float kMostFloat = 3.402823466e38f;
+constexpr float kMaxFloat = 3.402823466e38f;
 
 void check_light(const Image& image) {
     for (const Channel& channel : image.channels) {
@@ -20,7 +20,7 @@ void check_light(const Image& image) {
         const bool depth = channel.name == "Z";
         for (const float v : channel.pixels.span()) {
             fuzz::require(v >= 0.0f, "no pixel is negative or not a number");
-            fuzz::require(depth || v <= kMostFloat, "no radiance is infinite");
+            fuzz::require(depth || v <= kMaxFloat, "no radiance is infinite");
         }
     }
 }
@@ -57,7 +57,7 @@ int fuzz::render(const std::uint8_t* data, std::size_t size) {
     // for, and which is a delta at g = 1 or -1; nothing else may be refused.
     const bool refused =
         status.code == Code::kLimit || status.message.find("a lobe of g = ") != std::string::npos;
-    const bool peak = refused && (scene.collectors.camera_closure ||
+    const bool peak = refused && (scene.collectors.closure.camera ||
                                   scene.photon_grid.closure == GridClosure::kCamera);
     if (!status && !peak) std::fprintf(stderr, "%s\n%s\n", text.c_str(), status.message.c_str());
     fuzz::require(status ? shown : peak, "a valid scene is rendered");

@@ -13,7 +13,7 @@ int fuzz::sensors(const std::uint8_t* data, std::size_t size) {
         fuzz::check_fault(status, "s.toml:", true);
         return 0;
     }
-    fuzz::require(!sensors.empty() && sensors.size() <= kMostSensors, "some sensors");
+    fuzz::require(!sensors.empty() && sensors.size() <= kMaxSensors, "some sensors");
     for (const Sensor& s : sensors) {
         const Double3& d = s.direction;
         const double length = d.x * d.x + d.y * d.y + d.z * d.z;

@@ -147,7 +147,7 @@ TEST_CASE("media: their number is limited, and a missing box is told by its own 
           "test.toml: limits.media: needs 9, allowed: at most 8 (no switch raises it)");
 
     Scene scene = render_test::scene_from(std::string(kText) + kHaze);
-    scene.media[1].has_bounds = false;
+    scene.media[1].box.has_bounds = false;
     const Status lost = render(scene, {}, none);
     CHECK(lost.code == Code::kBadInput);
     CHECK(lost.message.find("medium.1.bounds_m: left out") != std::string::npos);

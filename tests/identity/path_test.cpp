@@ -116,8 +116,8 @@ TEST_CASE("one film of guided paths and of the sun's disc from every instruction
     std::vector<std::string> films;
     for (double radius : {0.0, 3.0})
         for (bool guide : {true, false}) {
-            in.guide = guide;
-            in.sun_radius_deg = radius;
+            in.rules.guide = guide;
+            in.rules.sun_radius_deg = radius;
             const std::string once = film_digest(in, {37});
             for (const std::string& other : films) CHECK(once != other);
             films.push_back(once);
@@ -129,7 +129,7 @@ TEST_CASE("where no phase function is peaked a guide changes no bit") {
     Rig rig = make_everything();
     PathInput in = path_input(rig, make_view({-40, -60, 30}, {0.6f, 0.8f, 0}, 24, 16), 11);
     const std::string once = film_digest(in, {37});
-    in.guide = false;
+    in.rules.guide = false;
     CHECK(film_digest(in, {37}) == once);
 }
 

@@ -26,9 +26,9 @@ Rig make_lump(const Float3& albedo) {
     set_albedo(rig, albedo);
     rig.medium.optics[0].phase.g1 = 0.7f;
     set_majorants(rig, 2);
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = -10;
-    rig.lighting.ground_albedo = 0.6;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = -10;
+    rig.lighting.ground.albedo = 0.6;
     add_light(rig, beam_light(rig.medium, {0.48, 0.36, -0.8}));
     add_light(rig, diffuse_light(rig.medium, -1));
     add_light(rig, diffuse_light(rig.medium, 1));

@@ -35,11 +35,11 @@ void scale_light(Scene& scene, float factor) {
 
 void scale_lengths(Scene& scene, double factor) {
     for (Double3* v : {&scene.camera.position_m, &scene.camera.target_m,
-                       &scene.media[0].bounds_m[0], &scene.media[0].bounds_m[1]})
+                       &scene.media[0].box.bounds_m[0], &scene.media[0].box.bounds_m[1]})
         *v *= factor;
     scene.camera.height_m *= factor;
     scene.ground.altitude_m *= factor;
-    scene.media[0].extinction_per_m /= factor;
+    scene.media[0].optics.extinction_per_m /= factor;
 }
 
 const std::array<const char*, 2> kLooks[] = {

@@ -94,8 +94,8 @@ TEST_CASE("format rows: what a row writes it reads again") {
         // Corners are lit, so that a format of active voxels keeps the box.
         for (std::size_t i = 0; i < 24; ++i) volume.density[i] = float(i + 1) / 32;
         MediumSettings medium;
-        medium.format = format.name;
-        medium.raw_size = volume.size;
+        medium.source.format = format.name;
+        medium.source.raw_size = volume.size;
         const std::string path = folder.path(std::string("a.") + format.name);
         REQUIRE(format.write(medium, path, volume));
         REQUIRE(read_volume(medium, path, again));

@@ -133,9 +133,9 @@ TEST_CASE("grids: files in extinction end at density 1, and the scale counts onc
     scene.media.resize(1);
     MediumSettings& medium = scene.media[0];
     medium.density.clear();
-    medium.file =
+    medium.source.file =
         folder.put("c.txt", "1,1,2\n.1,.1\n.1,.2\ni,j,k,lwc,reff\n0,0,0,.3,9\n0,0,1,.1,9\n");
-    medium.extinction_scale = 2;
+    medium.optics.extinction_scale = 2;
     Medium loaded;
     REQUIRE(load_medium(scene, medium, 1, loaded));
     CHECK(loaded.density_max == 1.0f);
@@ -145,7 +145,7 @@ TEST_CASE("grids: files in extinction end at density 1, and the scale counts onc
     CHECK(loaded.low_m == Double3{0, 0, 50});
 
     // Without any water there is nothing to divide by.
-    medium.file = folder.put("e.txt", "1,1,2\n.1,.1\n.1,.2\ni,j,k,lwc,reff\n");
+    medium.source.file = folder.put("e.txt", "1,1,2\n.1,.1\n.1,.2\ni,j,k,lwc,reff\n");
     Medium empty;
     REQUIRE(load_medium(scene, medium, 1, empty));
     CHECK(empty.sigma == 0.0f);

@@ -73,8 +73,8 @@ TEST_CASE("NanoVDB: files, segments, versions and dispatch") {
     VolumeHead head;
     REQUIRE(read_volume_head(medium, folder.path("a.nvdb"), head));
     CHECK(head.bounds_m == v.bounds_m);
-    medium.format = "nanovdb";
-    medium.grid = "smoke";
+    medium.source.format = "nanovdb";
+    medium.source.grid = "smoke";
     CHECK(holds(read_volume(medium, folder.path("a.nvdb"), v).message, "unknown, \"smoke\""));
     CHECK(read_nvdb_volume(folder.path("none.nvdb"), "", v).code == Code::kBadInput);
 }

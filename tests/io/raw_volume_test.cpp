@@ -129,14 +129,14 @@ TEST_CASE("volume: format by key or extension, axes in file order") {
     const test::TempFolder folder;
     const std::string path = folder.put("v.raw", "\x33\x66\x99");
     MediumSettings medium;
-    medium.raw_type = RawType::kUint8;
-    medium.raw_size = {1, 3, 1};
+    medium.source.raw_type = RawType::kUint8;
+    medium.source.raw_size = {1, 3, 1};
     Volume v;
     REQUIRE(read_volume(medium, path, v));
     CHECK(v.size == std::array<int, 3>{1, 3, 1});
     CHECK_FALSE(v.knows_bounds);
 
-    medium.y_up = true;  // the turn is the caller's step
+    medium.source.y_up = true;  // the turn is the caller's step
     REQUIRE(read_volume(medium, path, v));
     CHECK(v.size == std::array<int, 3>{1, 3, 1});
     CHECK(v.density[2] == 153.0f / 255.0f);
@@ -147,8 +147,8 @@ TEST_CASE("volume: format by key or extension, axes in file order") {
     CHECK(holds(unknown.message,
                 "format: unknown, \".dat\", allowed: \"pbrt\", \"raw\", \"vol\", "
                 "\"les\", \"openvdb\", \"nanovdb\""));
-    medium.format = "raw";
+    medium.source.format = "raw";
     CHECK(read_volume(medium, other, v));
-    medium.format = "pbrt";
+    medium.source.format = "pbrt";
     CHECK(read_volume(medium, path, v).code == Code::kBadInput);
 }

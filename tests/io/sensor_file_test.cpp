@@ -95,7 +95,7 @@ TEST_CASE("sensor file: each fault has its line") {
     std::string many;
     for (int i = 0; i < 4097; ++i) many += head + "height_m = 1\n";
     CHECK(decode(many, sensors).message.find("sensor: too many, 4097") != std::string::npos);
-    CHECK(decode(std::string(kMostSensorBytes + 1, '#'), sensors).code == Code::kLimit);
+    CHECK(decode(std::string(kMaxSensorBytes + 1, '#'), sensors).code == Code::kLimit);
 }
 
 }  // namespace sensor_file_test

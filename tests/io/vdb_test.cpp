@@ -129,8 +129,8 @@ TEST_CASE("OpenVDB: files, dispatch and raw files out") {
     VolumeHead head;
     REQUIRE(read_volume_head(medium, folder.path("new/v.vdb"), head));
     CHECK(head.size == v.size);
-    medium.format = "openvdb";
-    medium.grid = "smoke";
+    medium.source.format = "openvdb";
+    medium.source.grid = "smoke";
     CHECK(holds(read_volume(medium, folder.path("new/v.vdb"), again).message,
                 "grid: unknown, \"smoke\", allowed: \"density\" (float)"));
     CHECK(read_vdb_volume(folder.path("none.vdb"), "", again).code == Code::kBadInput);

@@ -160,10 +160,10 @@ TEST_CASE("heads: pbrt with its parameters in any order, raw by its length") {
                 "float density: missing"));
 
     MediumSettings raw;
-    raw.raw_size = {3, 1, 1};
-    raw.raw_type = RawType::kUint8;
+    raw.source.raw_size = {3, 1, 1};
+    raw.source.raw_type = RawType::kUint8;
     REQUIRE(read_volume_head(raw, folder.put("v.raw", "123"), head));
-    CHECK(head.size == raw.raw_size);
+    CHECK(head.size == raw.source.raw_size);
     CHECK(head.kind == "raw numbers, uint8");
     CHECK(read_volume_head(raw, folder.put("v.raw", "12"), head).code == Code::kBadInput);
 }

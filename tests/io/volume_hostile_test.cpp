@@ -42,7 +42,7 @@ TEST_CASE("volume: claims of 10^12 voxels and of overflowing products are refuse
         CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));
         VolumeHead head;
         MediumSettings medium;
-        medium.format = "pbrt";
+        medium.source.format = "pbrt";
         (void)read_volume_head(medium, folder.path("v.pbrt"), head);
     }
     for (const std::array<int, 3>& size :
@@ -59,7 +59,7 @@ TEST_CASE("volume: claims of 10^12 voxels and of overflowing products are refuse
                              "2147483647 2147483647 2147483647\n", "4294967297,1,1\n1,1\n0\n"}) {
         Volume v;
         MediumSettings les;
-        les.format = "les";
+        les.source.format = "les";
         const Status status = read_volume(les, folder.put("v.txt", text), v);
         CAPTURE(text);
         CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));
@@ -73,7 +73,7 @@ TEST_CASE("volume: claims of 10^12 voxels and of overflowing products are refuse
         bytes += std::string(24, '\0') + "12345678";
         Volume v;
         MediumSettings vol;
-        vol.format = "vol";
+        vol.source.format = "vol";
         const Status status = read_volume(vol, folder.put("v.vol", bytes), v);
         CAPTURE(side);
         CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));

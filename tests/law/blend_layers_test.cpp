@@ -37,7 +37,7 @@ TEST_CASE(
     "blend: the shares of thinner layers are right to 2^-22, and never leave less than none") {
     // What is left is before - taken, whose error is that of the share and one rounding of 1.
     double worst_taken = 0, worst_after = 0;
-    for (int doublings = 0; doublings <= kMostDoublings; ++doublings)
+    for (int doublings = 0; doublings <= kMaxDoublings; ++doublings)
         for (int i = 1; i <= 4096; ++i) {
             const float part = kThinLayer * float(i) / 4096.0f;
             const double depth = std::ldexp(double(part), doublings);

@@ -76,15 +76,15 @@ TEST_CASE("lenses: the lee side is the longer one") {
         double longest = 0, shortest = 0;
         double cell[2];
         for (int a = 0; a < 2; ++a)
-            cell[a] = (medium.bounds_m[1][a] - medium.bounds_m[0][a]) / kLensCells;
+            cell[a] = (medium.box.bounds_m[1][a] - medium.box.bounds_m[0][a]) / kLensCells;
         for (int z = 0; z < kLensCells; ++z)
             for (int y = 0; y < kLensCells; ++y)
                 for (int x = 0; x < kLensCells; ++x) {
                     if (!(volume.density[std::size_t((z * kLensCells + y) * kLensCells + x)] > 0))
                         continue;
                     const double along =
-                        (medium.bounds_m[0].x + (x + 0.5) * cell[0]) * std::cos(turn) +
-                        (medium.bounds_m[0].y + (y + 0.5) * cell[1]) * std::sin(turn);
+                        (medium.box.bounds_m[0].x + (x + 0.5) * cell[0]) * std::cos(turn) +
+                        (medium.box.bounds_m[0].y + (y + 0.5) * cell[1]) * std::sin(turn);
                     longest = std::max(longest, along), shortest = std::min(shortest, along);
                 }
         CHECK(longest > -1.1 * shortest);

@@ -133,9 +133,10 @@ Measured measured(const MediumSettings& medium, const std::array<int, 3>& size) 
     ExtinctionGrid grid{};
     for (std::size_t a = 0; a < 3; ++a) {
         grid.size[a] = size[a];
-        grid.cell_m[a] = (medium.bounds_m[1][int(a)] - medium.bounds_m[0][int(a)]) / size[a];
+        grid.cell_m[a] =
+            (medium.box.bounds_m[1][int(a)] - medium.box.bounds_m[0][int(a)]) / size[a];
     }
-    grid.value = volume.density.data(), grid.per_m = medium.extinction_per_m;
+    grid.value = volume.density.data(), grid.per_m = medium.optics.extinction_per_m;
     Measured out;
     out.all = cloud_statistics(grid);
     double count = 0;

@@ -136,13 +136,13 @@ TEST_CASE("clouds: left out, the box holds the cloud, which stands on a flat bas
         for (const char* more : {"", ", base_m = 2500, position_m = [3000, -100]", ", shear = 1"}) {
             CAPTURE(more);
             const MediumSettings medium = medium_of("type = \"" + std::string(type) + "\"" + more);
-            REQUIRE(medium.has_bounds);
-            CHECK(medium.extinction_per_m > 0.04);
-            CHECK(medium.phase.type == "cloud");
+            REQUIRE(medium.box.has_bounds);
+            CHECK(medium.optics.extinction_per_m > 0.04);
+            CHECK(medium.optics.phase.type == "cloud");
             const CloudSettings cloud = resolved_cloud(medium.cloud);
             const Size size{80, 80, 80};
             const Volume volume = made(medium, size);
-            const double cell = (medium.bounds_m[1].z - medium.bounds_m[0].z) / 80;
+            const double cell = (medium.box.bounds_m[1].z - medium.box.bounds_m[0].z) / 80;
             int lowest = 80, highest = 0, rim = 0;
             for (int z = 0; z < 80; ++z)
                 for (int y = 0; y < 80; ++y)
@@ -152,9 +152,9 @@ TEST_CASE("clouds: left out, the box holds the cloud, which stands on a flat bas
                         rim += x < 2 || y < 2 || x > 77 || y > 77 ? 1 : 0;
                     }
             CHECK(rim == 0);
-            const double base = medium.bounds_m[0].z + lowest * cell;
+            const double base = medium.box.bounds_m[0].z + lowest * cell;
             CHECK(std::fabs(base - cloud.base_m) < 0.03 * cloud.height_m + cell);
-            const double top = medium.bounds_m[0].z + (highest + 1) * cell - cloud.base_m;
+            const double top = medium.box.bounds_m[0].z + (highest + 1) * cell - cloud.base_m;
             CHECK(top > 0.85 * cloud.height_m);
             CHECK(top < 1.3 * cloud.height_m);
         }

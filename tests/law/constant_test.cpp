@@ -191,8 +191,8 @@ TEST_CASE("constant cells: paths find the transmittance of the cells") {
             for (int x = 0; x < 24; ++x) {
                 Double3 d;
                 const Double3 o = pixel_origin(eye, x, y, d);
-                const double exact = std::exp(
-                    -kSigma * ray_integral(cells, kSize, kExtent, o, d, scene.media[0].periodic));
+                const double exact = std::exp(-kSigma * ray_integral(cells, kSize, kExtent, o, d,
+                                                                     scene.media[0].box.periodic));
                 sum += double(picture.at("R", x, y)) - exact;
                 // Of a share p of 4096 draws.
                 square += exact * (1 - exact) / 4096;
@@ -217,7 +217,7 @@ TEST_CASE("constant cells: a picture is that of a trilinear field of eight times
             scene_text({-700, -800, 900}, ""),
             {std::string("method.name=") + method, "path.samples_per_pixel=256",
              std::string("medium.0.interpolation=") + interpolation, "output.layers=[\"error\"]"});
-        scene.media[0].resolution = size;
+        scene.media[0].box.resolution = size;
         const render_test::Picture picture = render_test::render_cells(scene, values);
         double sum = 0, square = 0;
         for (int y = 0; y < 16; ++y)
@@ -307,12 +307,12 @@ TEST_CASE("constant cells: media of one scene agree, and keep what they hold on 
     for (std::size_t i = 0; i < 2; ++i) {
         MediumSettings& m = scene.media[i];
         m.density = "uniform:box";
-        m.has_bounds = true;
-        m.bounds_m = {{{0, 0, 0}, {5, 4, 3}}};
-        if (i == 1) m.bounds_m = {{{0.3, -1, 0}, {2.9, 5, 6}}};
-        m.resolution = kSize;
-        m.extinction_per_m = 0.5;
-        m.constant = true;
+        m.box.has_bounds = true;
+        m.box.bounds_m = {{{0, 0, 0}, {5, 4, 3}}};
+        if (i == 1) m.box.bounds_m = {{{0.3, -1, 0}, {2.9, 5, 6}}};
+        m.box.resolution = kSize;
+        m.optics.extinction_per_m = 0.5;
+        m.box.constant = true;
     }
     Plan plan;
     Medium mixed;
@@ -325,7 +325,7 @@ TEST_CASE("constant cells: media of one scene agree, and keep what they hold on 
     const double cell = mixed.extent_m[0] * mixed.extent_m[1] * mixed.extent_m[2] /
                         double(mixed.volume.density.size());
     CHECK(sum * cell == doctest::Approx(held * (1 + 2.6 * 6 * 6 / 60)).epsilon(1e-6));
-    scene.media[1].constant = false;
+    scene.media[1].box.constant = false;
     Medium outline;
     MediumSource source;
     const Status status = outline_media(scene, Limits{}, 1, plan, outline, source,

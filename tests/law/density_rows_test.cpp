@@ -162,7 +162,7 @@ TEST_CASE("densities: an outline tells size and mean, and a plan lists what maki
         CHECK(source.mean_density == outline.mean);
         REQUIRE(source.making.size() == (row->working != nullptr ? 1 : 0));
         if (row->working != nullptr) CHECK(source.making[0].bytes == outline.bytes);
-        scene.media[0].resolution = {11, 12, 13};
+        scene.media[0].box.resolution = {11, 12, 13};
         REQUIRE(outline_medium(scene, scene.media[0], Limits{}, medium, source));
         CHECK(medium.volume.size == Size{11, 12, 13});
     }

@@ -40,10 +40,10 @@ Scene box_scene(int n, const DetailSettings& detail, const char* density = "unif
     scene.media.resize(1);
     MediumSettings& m = scene.media[0];
     m.density = density;
-    m.has_bounds = true;
-    m.bounds_m = {{{0, 0, 0}, {64, 64, 64}}};
-    m.resolution = {n, n, n};
-    m.extinction_per_m = 0.125;
+    m.box.has_bounds = true;
+    m.box.bounds_m = {{{0, 0, 0}, {64, 64, 64}}};
+    m.box.resolution = {n, n, n};
+    m.optics.extinction_per_m = 0.125;
     m.detail = detail;
     return scene;
 }
@@ -248,7 +248,7 @@ TEST_CASE("detail: one cell, tiles shorter than a cell and longer than the mediu
     DetailSettings s = settings_of(DetailNoise::kPerlin, 16);
     s.tile_m = 20;
     Scene scene = box_scene(4, s);
-    scene.media[0].periodic = true;
+    scene.media[0].box.periodic = true;
     const Medium m = loaded(scene);
     CHECK(m.detail.view.period[0] == float(64.0 / 3));
     CHECK(m.detail.view.period[1] == float(64.0 / 3));

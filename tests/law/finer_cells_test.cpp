@@ -134,10 +134,10 @@ TEST_CASE("finer cells: a world has them, as its outline says") {
     scene.media.resize(1);
     MediumSettings& m = scene.media[0];
     m.density = "uniform:box";
-    m.has_bounds = true;
-    m.bounds_m = {{{0, 0, 0}, {40, 40, 40}}};
-    m.resolution = {2, 2, 2};
-    m.extinction_per_m = 0.25;
+    m.box.has_bounds = true;
+    m.box.bounds_m = {{{0, 0, 0}, {40, 40, 40}}};
+    m.box.resolution = {2, 2, 2};
+    m.optics.extinction_per_m = 0.25;
     Report report;
     Context context;
     context.report = &report;

@@ -20,8 +20,8 @@ constexpr double kRise = 4;
 
 MediumSettings settings() {
     MediumSettings medium;
-    medium.bounds_m[0] = {-1600, -1500, 900};
-    medium.bounds_m[1] = {1600, 1500, 2900};
+    medium.box.bounds_m[0] = {-1600, -1500, 900};
+    medium.box.bounds_m[1] = {1600, 1500, 2900};
     medium.particles.count = std::int64_t(kMany);
     medium.particles.rise_m_per_s = kRise;
     return medium;
@@ -66,8 +66,9 @@ TEST_CASE("particle recipes: as many as asked, within the box, the same bits by 
             for (std::size_t a = 0; a < 3; ++a) {
                 // Places are floats of up to 1600: their rounding.
                 const double v = one.origin[int(a)] + double(one.position[3 * i + a]);
-                within = within && v - double(one.radius[i]) >= medium.bounds_m[0][int(a)] - 1e-3 &&
-                         v + double(one.radius[i]) <= medium.bounds_m[1][int(a)] + 1e-3;
+                within = within &&
+                         v - double(one.radius[i]) >= medium.box.bounds_m[0][int(a)] - 1e-3 &&
+                         v + double(one.radius[i]) <= medium.box.bounds_m[1][int(a)] + 1e-3;
             }
         }
         CHECK(within);
@@ -87,7 +88,7 @@ TEST_CASE("particle recipes: a cumulus has a flat base, turrets, and more water 
     ParticleSet set;
     const MediumSettings medium = settings();
     make("procedural:particle-cumulus", medium, 1, set);
-    const double base = medium.bounds_m[0][2], height = medium.bounds_m[1][2] - base;
+    const double base = medium.box.bounds_m[0][2], height = medium.box.bounds_m[1][2] - base;
     // Places over squares of the base, 200 m wide, whose lowest particle tells where it is.
     constexpr int kSquares = 16;
     double lowest[kSquares * kSquares], highest[kSquares * kSquares], extinction[2] = {};

@@ -45,23 +45,23 @@ struct Rig {
         REQUIRE(make_sun_depth(context, medium, majorants, lighting.to_sun, SunDepthKind::kExact,
                                nodes));
         in.camera = make_camera(scene.camera, 0, medium.low_m);
-        const SkyView view{true, in.camera, float(scene.raymarch.octave_anisotropy)};
-        if (scene.raymarch.sky_ambient)
+        const SkyView view{true, in.camera, float(scene.raymarch.scattering.octave_anisotropy)};
+        if (scene.raymarch.light.sky_ambient)
             REQUIRE(make_sky_nodes(context, medium, majorants, lighting,
-                                   mean_kept(scene.raymarch, medium), octaves_of(scene.raymarch),
-                                   view, sky));
-        if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
+                                   mean_kept(scene.raymarch.scattering, medium),
+                                   octaves_of(scene.raymarch.scattering), view, sky));
+        if (scene.raymarch.march.jitter == RaymarchJitterKind::kBlueNoise)
             REQUIRE(make_blue_noise(noise));
         REQUIRE(make_density_levels(medium, 4, majorants.skip_block, context, levels));
         in.medium = &medium;
         in.majorants = &majorants;
         in.lighting = &lighting;
         in.settings = &scene.raymarch;
-        in.nodes = &nodes;
-        if (scene.raymarch.sky_ambient) in.sky = &sky;
+        in.nodes.sun = &nodes;
+        if (scene.raymarch.light.sky_ambient) in.nodes.sky = &sky;
         in.noise = &noise;
-        if (scene.raymarch.detail) in.levels = &levels;
-        in.march_light = scene.raymarch.light == RaymarchLightKind::kMarch;
+        if (scene.raymarch.march.detail) in.levels = &levels;
+        in.march_light = scene.raymarch.light.kind == RaymarchLightKind::kMarch;
     }
 
     /// The picture, with something solid so many metres away in its left half.
@@ -177,7 +177,7 @@ TEST_CASE("raymarch: rays that end early lose no more than what they would have 
     Rig rig({"raymarch.ambient=1", "raymarch.sky_light=none", "sun.irradiance=0",
              "medium.0.extinction_per_m=0.0625"});
     const Planes early = rig.march();
-    rig.scene.raymarch.stop_below = 0;
+    rig.scene.raymarch.march.stop_below = 0;
     const Planes late = rig.march();
     double worst = 0;
     for (std::size_t i = 0; i < early.colour.size(); ++i)

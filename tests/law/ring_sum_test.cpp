@@ -15,7 +15,7 @@ namespace {
 constexpr SlotSize kSize{2100, 1, 9, 3};  // more sets than one piece of work has
 constexpr std::size_t kShining = 2, kSlots = 4;
 constexpr int kBlocks = 3;
-constexpr double kMostError = 0x1p-10;  // of a set's largest number
+constexpr double kMaxError = 0x1p-10;  // of a set's largest number
 
 struct Ring {
     Photons photons;
@@ -153,8 +153,8 @@ TEST_CASE("ring sum: a packed number is wrong by 2^-10 of its set's largest at m
                 // Numbers of a few digits are rounded to whole ones.
                 worst = std::max(worst, (error - 0.5) / (largest + 1e-9));
             }
-            CHECK(worst <= kMostError);
-            CHECK(worst > kMostError / 16);  // no more digits than are paid for
+            CHECK(worst <= kMaxError);
+            CHECK(worst > kMaxError / 16);  // no more digits than are paid for
             for (std::uint64_t i = size.numbers() - 2; i < size.numbers(); ++i)
                 CHECK(std::abs(double(kept[i]) -
                                double(number_of(size, 5, l, i)) * flux[l] / unit[l]) <= 0.5 + 1e-9);

@@ -23,10 +23,10 @@ Scene field_scene(const std::vector<float>& field, const std::vector<TransferRow
     scene.media.resize(1);
     MediumSettings& m = scene.media[0];
     m.density = "uniform:box";
-    m.has_bounds = true;
-    m.bounds_m = {{{0, 0, 0}, {8, 1, 1}}};
-    m.resolution = {int(field.size()), 1, 1};
-    m.transfer = rows;
+    m.box.has_bounds = true;
+    m.box.bounds_m = {{{0, 0, 0}, {8, 1, 1}}};
+    m.box.resolution = {int(field.size()), 1, 1};
+    m.optics.transfer = rows;
     return scene;
 }
 
@@ -118,8 +118,8 @@ TEST_CASE("transfer: two equal rows are a plain uniform medium, to the bit") {
     const Medium shown =
         loaded(field_scene(field, {{0, 0.03, kRed}, {1, 0.03, kRed}}), field, plan);
     Scene plain = field_scene(ones, {});
-    plain.media[0].extinction_per_m = 0.03;
-    plain.media[0].albedo = kRed;
+    plain.media[0].optics.extinction_per_m = 0.03;
+    plain.media[0].optics.albedo = kRed;
     const Medium uniform = loaded(plain, ones, plan);
     CHECK(shown.count == 1);
     CHECK(shown.sigma == uniform.sigma);
@@ -133,8 +133,8 @@ TEST_CASE("transfer: two equal rows are a plain uniform medium, to the bit") {
 TEST_CASE("transfer: a table of a phase function stays with a colour that is there") {
     const std::vector<float> field{1, 1, 1, 1};
     Scene scene = field_scene(field, {{0, 1, kRed}, {1, 2, kWhite}, {2, 0, kWhite}});
-    scene.media[0].phase.type = "cloud";
-    scene.media[0].phase.numbers["effective_radius_um"] = 10;
+    scene.media[0].optics.phase.type = "cloud";
+    scene.media[0].optics.phase.numbers["effective_radius_um"] = 10;
     Plan plan;
     const Medium m = loaded(scene, field, plan);
     REQUIRE(m.phases.size() == 1);

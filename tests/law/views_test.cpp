@@ -248,7 +248,7 @@ TEST_CASE("views: samples draws each sample") {
     CHECK(p.report.prepared.samples == 700);
     CHECK(p.report.prepared.leaves == 0);
     Scene lonely = scene;
-    lonely.collectors.samples = 1;
+    lonely.collectors.placement.samples = 1;
     const Picture one = show(lonely, "samples");
     CHECK(one.counter("samples_drawn") == 1);
     CHECK(one.image.pixel_hash != p.image.pixel_hash);
@@ -258,7 +258,7 @@ TEST_CASE("views: leaves of the tree tile the grid") {
     for (const char* text : {kCube, kCloud}) {
         const Scene scene = scene_from(text);
         const Picture p = show(scene, "tree");
-        const auto& n = scene.media[0].resolution;
+        const auto& n = scene.media[0].box.resolution;
         CHECK(p.counter("voxels_in_leaves") ==
               std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]));
         CHECK(p.counter("leaves_drawn") == p.report.prepared.leaves);

@@ -216,7 +216,7 @@ TEST_CASE("validation: fluxes out of DISORT's test problems by photons") {
         if (value < 1e-20 || quantity == "dfdt" || (!top && !bottom)) continue;
         if (top != (quantity == "flup")) continue;  // what arrives at the top is what was sent
         c.rig.lighting.lights.clear();
-        c.rig.lighting.ground = false;
+        c.rig.lighting.ground.present = false;
         const double sine = std::sqrt(1 - c.mu0 * c.mu0);
         add_light(c.rig, c.is_beam() ? beam_light(c.rig.medium, {-sine, 0, -c.mu0})
                                      : diffuse_light(c.rig.medium, -1));

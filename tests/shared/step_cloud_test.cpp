@@ -97,7 +97,7 @@ TEST_CASE("step cloud: light below each column agrees with the consensus") {
     sun.photons = 4 * photons();
     add_light(rig, sun);
     // A black ground right below counts what arrives, one cell per column along x.
-    rig.lighting.ground = true;
+    rig.lighting.ground.present = true;
     TraceInput in = input_of(rig, 21);
     in.ground.cells = kColumns;
     for (float& n : in.ground.per_metre) n = float(1 / kColumnM);

@@ -16,8 +16,8 @@ MediumSettings medium() {
     MediumSettings m;
     m.density = "procedural:sky";
     m.sky = small_sky();
-    m.bounds_m = {Double3{-4096, 512, 900}, Double3{4096, 4608, 2600}};
-    m.resolution = {37, 20, 11};
+    m.box.bounds_m = {Double3{-4096, 512, 900}, Double3{4096, 4608, 2600}};
+    m.box.resolution = {37, 20, 11};
     return m;
 }
 
@@ -25,7 +25,7 @@ Volume baked(const MediumSettings& m, const KernelTable* table = nullptr, int th
     unsetenv("HOME"), unsetenv("PILEUS_CACHE_DIR"), unsetenv("XDG_CACHE_HOME");
     Volume volume;
     if (table == nullptr) table = kernel_table(nullptr);
-    REQUIRE(bake_sky(m, m.resolution, *table, threads, volume));
+    REQUIRE(bake_sky(m, m.box.resolution, *table, threads, volume));
     return volume;
 }
 
@@ -55,7 +55,7 @@ std::string fault(const std::string& lines) {
 TEST_CASE("cells hold the field at their middles, whatever the kernels and threads") {
     const MediumSettings m = medium();
     const Volume volume = baked(m);
-    const Rig rig(m.sky, m.bounds_m[0], true);
+    const Rig rig(m.sky, m.box.bounds_m[0], true);
     int cloudy = 0;
     const float cell[3] = {float(8192.0 / 37), float(4096.0 / 20), float(1700.0 / 11)};
     for (int z = 0; z < 11; ++z)
@@ -76,16 +76,16 @@ TEST_CASE("a box moved by whole tiles holds the same") {
     MediumSettings m = medium();
     m.sky.worley.tile_m = 2048;
     const Volume here = baked(m);
-    m.bounds_m[0][0] += 4096 * 3, m.bounds_m[1][0] += 4096 * 3;
-    m.bounds_m[0][1] -= 4096, m.bounds_m[1][1] -= 4096;
+    m.box.bounds_m[0][0] += 4096 * 3, m.box.bounds_m[1][0] += 4096 * 3;
+    m.box.bounds_m[0][1] -= 4096, m.box.bounds_m[1][1] -= 4096;
     CHECK(equal(baked(m), here));
-    m.bounds_m[0][0] += 100, m.bounds_m[1][0] += 100;
+    m.box.bounds_m[0][0] += 100, m.box.bounds_m[1][0] += 100;
     CHECK(!equal(baked(m), here));
 }
 
 TEST_CASE("a box left out of its resolution has cubes") {
     MediumSettings m = medium();
-    m.resolution = {0, 0, 0};
+    m.box.resolution = {0, 0, 0};
     CHECK(default_sky_size(m) == std::array<int, 3>{256, 128, 54});
 }
 
@@ -96,15 +96,15 @@ TEST_CASE("a kind of cloud brings layer, extinction and droplets, and the scene 
     CHECK(m.sky.base_m == 450);
     CHECK(m.sky.top_m == 800);
     CHECK(m.sky.coverage == 0.95);
-    CHECK(m.extinction_per_m == 0.057);
-    CHECK(m.phase.type == "cloud");
-    CHECK(m.phase.numbers.at("effective_radius_um") == 7.33);
+    CHECK(m.optics.extinction_per_m == 0.057);
+    CHECK(m.optics.phase.type == "cloud");
+    CHECK(m.optics.phase.numbers.at("effective_radius_um") == 7.33);
     REQUIRE(
         read("extinction_per_m = 0.5\nphase = { type = \"rayleigh\" }\n"
              "sky = { type = \"stratus\", threshold_low = 0.2 }\n",
              scene));
-    CHECK(scene.media[0].extinction_per_m == 0.5);
-    CHECK(scene.media[0].phase.type == "rayleigh");
+    CHECK(scene.media[0].optics.extinction_per_m == 0.5);
+    CHECK(scene.media[0].optics.phase.type == "rayleigh");
     CHECK(scene.media[0].sky.coverage == -1);  // thresholds that are given stay
     REQUIRE(read("extinction_per_m = 1\n", scene));
     CHECK(scene.media[0].sky.threshold_high == 0.7);

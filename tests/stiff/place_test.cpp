@@ -16,17 +16,17 @@ void shift(Scene& scene, const Double3& by) {
         scene.camera.position_m[a] += by[a];
         scene.camera.target_m[a] += by[a];
         for (MediumSettings& m : scene.media)
-            for (Double3& corner : m.bounds_m) corner[a] += by[a];
+            for (Double3& corner : m.box.bounds_m) corner[a] += by[a];
     }
     scene.ground.altitude_m += by[2];
 }
 
 void scale(Scene& scene, double by) {
     for (Double3* v : {&scene.camera.position_m, &scene.camera.target_m,
-                       &scene.media[0].bounds_m[0], &scene.media[0].bounds_m[1]})
+                       &scene.media[0].box.bounds_m[0], &scene.media[0].box.bounds_m[1]})
         *v *= by;
     scene.ground.altitude_m *= by;
-    scene.media[0].extinction_per_m /= by;
+    scene.media[0].optics.extinction_per_m /= by;
 }
 
 }  // namespace

@@ -129,9 +129,9 @@ TEST_CASE("S20: in diffuse light an almost white slab collides 2 tau times and a
 
 TEST_CASE("S32: lights together are the lights one by one, in integers") {
     Rig rig = make_lump({6, 5, 4});
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = -30;
-    rig.lighting.ground_albedo = 0.5;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = -30;
+    rig.lighting.ground.albedo = 0.5;
     add_light(rig, beam_light(rig.medium, {0.48, 0.36, -0.8}));
     add_light(rig, diffuse_light(rig.medium, -1));
     add_light(rig, diffuse_light(rig.medium, 1));

@@ -14,7 +14,7 @@ inline HostMedia host_cells(const Scene& scene, const std::vector<float>& cells)
     for (const MediumSettings& medium : scene.media) {
         out.media.emplace_back();
         out.media.back().cells = cells.data();
-        out.media.back().size = medium.resolution;
+        out.media.back().size = medium.box.resolution;
     }
     return out;
 }

@@ -104,9 +104,9 @@ inline void set_sky(Rig& rig, double radiance) {
 }
 
 inline void set_ground(Rig& rig, double z, double albedo) {
-    rig.lighting.ground = true;
-    rig.lighting.ground_z = z;
-    rig.lighting.ground_albedo = albedo;
+    rig.lighting.ground.present = true;
+    rig.lighting.ground.z = z;
+    rig.lighting.ground.albedo = albedo;
 }
 
 }  // namespace path_test

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/angles.h"
 #include "src/world/light/sky_map.h"
 
 namespace sky_test {
 
 using namespace pileus;
-constexpr double kPi64 = 3.14159265358979323846;
 
 template <class Value>
 Image sky_image(int width, int height, Value value) {

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "src/base/angles.h"
 #include "src/world/atmosphere/air_sky.h"
 
 using namespace pileus;
 
 namespace {
 
-constexpr double kPi64 = 3.14159265358979323846;
 double sine_of(double degrees) { return std::sin(degrees * kPi64 / 180); }
 
 double tent(double height) {

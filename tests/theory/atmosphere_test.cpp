@@ -85,7 +85,7 @@ TEST_CASE("air: its sky is that of a level layer by the path tracer") {
     for (const double turn : {0.0, 90.0, 180.0}) {
         const Way d = air_test::towards(45, turn);
         Scene scene = render_test::scene_from(kLayer);
-        scene.media[0].extinction_per_m = depth / 10000;
+        scene.media[0].optics.extinction_per_m = depth / 10000;
         scene.camera.target_m = scene.camera.position_m + Double3{d.y, d.x, d.z};
         const render_test::Picture picture = render_test::render_one(scene);
         double mean = 0;

@@ -149,7 +149,7 @@ TEST_CASE("optical-depth: the buffer's own cells") {
                          "medium.0.extinction_per_m=0.0625"};
     const std::string plain = picture_of(kSmallCumulus, method).report.hash;
     const Scene scene = scene_from(kSmallCumulus, method);
-    auto n = scene.media[0].resolution;
+    auto n = scene.media[0].box.resolution;
     // Cells of four optical depths are divided by three.
     for (int& cells : n) cells *= 3;
     const std::string own =

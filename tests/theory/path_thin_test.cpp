@@ -48,7 +48,7 @@ TEST_CASE("single scattering of a thin ball is its mass times the phase function
                 [&](int more, std::uint64_t seed) {
                     PathInput in =
                         path_input(rig, make_flat_view({1, -5, 1}, {0, 1, 0}, 2, 16, 16), seed);
-                    in.max_depth = 1;
+                    in.rules.max_depth = 1;
                     return film_average(trace_film(in, 36000u * unsigned(more)));
                 },
                 exact * tau);

@@ -97,22 +97,22 @@ TEST_CASE("axes: keys of the scene, and what they must name") {
     WeatherCase c = named_case("d1", "d2", "d3");
     for (const char* name : {"d1", "d2", "d3"}) c.maker.of(name).texts.clear();
     CHECK(c.fault().find("w.nc: variable lwc: dimension d1: neither time") == 0);
-    c.medium.weather.axes = "level: d1, y: d2,x : d3";
-    c.medium.weather.units = "d1: m, d2: km, d3: m";
+    c.medium.weather.names.axes = "level: d1, y: d2,x : d3";
+    c.medium.weather.names.units = "d1: m, d2: km, d3: m";
     check_depth(c);
     CHECK(c.cell_m(1) == doctest::Approx(1000));
     // A unit of the scene comes before the file's.
-    c.medium.weather.units += ", lwc: mg m-3";
+    c.medium.weather.names.units += ", lwc: mg m-3";
     REQUIRE(c.load());
     CHECK(c.survey.most_depth == doctest::Approx(7.5e-3).epsilon(1e-6));
-    c.medium.weather.axes = "level: d1, y: d2, east: d3";
+    c.medium.weather.names.axes = "level: d1, y: d2, east: d3";
     CHECK(c.fault().find("w.nc: axes: no such axis, \"east\", allowed: time, member") == 0);
-    c.medium.weather.axes = "level: d1, y: d2, x: d4";
+    c.medium.weather.names.axes = "level: d1, y: d2, x: d4";
     CHECK(c.fault().find("w.nc: axes: no such dimension, \"d4\", allowed: d1, d2, d3") == 0);
-    c.medium.weather.axes = "level d1";
+    c.medium.weather.names.axes = "level d1";
     CHECK(c.fault().find("w.nc: axes: not understood, \"level d1\"") == 0);
-    c.medium.weather.axes = "level: d1, y: d2, x: d3";
-    c.medium.weather.units = "q: m";
+    c.medium.weather.names.axes = "level: d1, y: d2, x: d3";
+    c.medium.weather.names.units = "q: m";
     CHECK(c.fault().find("w.nc: units: no such variable, \"q\", allowed: d1, d2, d3, lwc") == 0);
 }
 

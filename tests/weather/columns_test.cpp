@@ -112,8 +112,8 @@ TEST_CASE("columns: a field of any kind with a hole is empty there") {
         {"_FillValue", kFill}};
     empty_column(c, "cc", 2);
     empty_column(c, "height", 2);
-    c.medium.weather.variable = "cc";
-    c.medium.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
+    c.medium.weather.names.variable = "cc";
+    c.medium.optics.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.volume.blank == 1);

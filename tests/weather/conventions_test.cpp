@@ -39,7 +39,7 @@ WeatherCase hybrid_case() {
 
 TEST_CASE("conventions: hybrid faces, standard names, the ground's geopotential") {
     WeatherCase c = hybrid_case();
-    c.medium.resolution = {2, 1, 200};
+    c.medium.box.resolution = {2, 1, 200};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     // Faces at the ground 1e5 and 9e4, above 2e4 + 0.6 ps.
@@ -63,7 +63,7 @@ TEST_CASE("conventions: hybrid levels by formula_terms, the ground's pressure as
     c.maker.variable("bm", {"lev"}, {0.2, 0.8}, "1");
     auto& lnsp = c.maker.variable("lnsp", {"lat", "lon"}, {std::log(1e5), std::log(9e4)}, "1");
     lnsp.type = NcType::kDouble;
-    c.medium.resolution = {2, 1, 64};
+    c.medium.box.resolution = {2, 1, 64};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     // Levels 5e4 and 9e4: the face between is their geometric mean, the lowest the ground.
@@ -87,7 +87,7 @@ TEST_CASE("conventions: pressure levels in hPa, one of several times by its date
     w[12 + 4 + 1] = 0.2;  // second time, 800 hPa, northern row, eastern column
     c.maker.variable("ta", {"time", "plev", "lat", "lon"}, t, "K");
     c.maker.variable("clw", {"time", "plev", "lat", "lon"}, w, "g kg-1");
-    c.medium.weather.plain_degrees = true;  // so that cells are footprints
+    c.medium.weather.place.plain_degrees = true;  // so that cells are footprints
     c.medium.weather.time = {true, "2005-08-28 18", 0};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
@@ -124,7 +124,7 @@ TEST_CASE("conventions: WRF's names, staggered geopotential, water per kg of dry
     c.maker.variable("QVAPOR", at, {0.01, 0.01, 0.005, 0.005}, "kg kg-1");
     c.maker.variable("QCLOUD", at, {0, 5e-4, 0, 0}, "kg kg-1");
     c.maker.globals = {{"DX", 10000}, {"DY", 8000}, {"MAP_PROJ", 3}};
-    c.medium.resolution = {2, 1, 1};
+    c.medium.box.resolution = {2, 1, 1};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     const double kelvin = 295 * std::pow(0.9, 2.0 / 7), humidity = 0.01 / 1.01;
@@ -146,7 +146,7 @@ TEST_CASE("conventions: a slice along a meridian from north to south, an origin 
     c.maker.variable("lon", {"column"}, {135, 135, 135}, "degrees_east");
     c.maker.variable("height", {"column", "level"}, {2000, 1000, 2000, 1000, 2000, 1000}, "m");
     c.maker.variable("lwc", {"column", "level"}, {0, 0, 0, 0, 0, 0.1}, "g m-3");
-    c.medium.weather.origin_deg = {135, 50};
+    c.medium.weather.place.origin_deg = {135, 50};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     // 15 optical depths in cells of two.
@@ -173,7 +173,7 @@ TEST_CASE("conventions: degrees with the cosine of latitude and without") {
     const double mean = (std::sin((60 + half) * pi / 180) - std::sin((60 - half) * pi / 180)) /
                         (2 * half * pi / 180);
     CHECK(c.cell_m(0) == doctest::Approx(degree * mean).epsilon(1e-9));
-    c.medium.weather.plain_degrees = true;
+    c.medium.weather.place.plain_degrees = true;
     REQUIRE(c.load());
     CHECK(c.cell_m(0) == doctest::Approx(degree).epsilon(1e-9));
 }

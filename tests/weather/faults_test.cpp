@@ -81,7 +81,7 @@ const FaultRow kRows[] = {
     {"no water", test::content_case, [](WeatherCase& c) { c.maker.remove("lwc"); },
      "w.nc: liquid: no variable of cloud water"},
     {"a name that is none", test::content_case,
-     [](WeatherCase& c) { c.medium.weather.liquid = "qqq"; },
+     [](WeatherCase& c) { c.medium.weather.names.liquid = "qqq"; },
      "w.nc: liquid: no such variable, \"qqq\", allowed: lwc"},
     {"a radius without a size", test::pressure_case,
      [](WeatherCase& c) {
@@ -90,7 +90,7 @@ const FaultRow kRows[] = {
      "w.nc: variable re_ice: column 0: level 0: no radius for its cloud, 0 m"},
     {"an origin of metres", test::content_case,
      [](WeatherCase& c) {
-         c.medium.weather.origin_deg = {10, 50};
+         c.medium.weather.place.origin_deg = {10, 50};
      },
      "w.nc: origin_deg: the file's coordinates are metres, allowed: left out"},
     {"no such time", test::content_case,

@@ -77,7 +77,7 @@ TEST_CASE("grib: pressure levels: water path is q dp/g; times and places") {
             grib.add("shortName=clwc" + where, hour[0] == '6' ? "0.0002" : "0.0004");
         }
     MediumSettings medium;
-    medium.format = "grib";
+    medium.source.format = "grib";
     medium.weather.time = {true, "2026-06-21T12", 0};
     WeatherSurvey survey;
     Volume volume;
@@ -107,7 +107,7 @@ TEST_CASE("grib: hybrid levels by pv and the logarithm of the pressure at the gr
     grib.add("shortName=lnsp" + level + "1", "11.5");
     grib.add("shortName=z" + level + "1", "980.665");
     MediumSettings medium;
-    medium.format = "grib";
+    medium.source.format = "grib";
     WeatherSurvey survey;
     Volume volume;
     const Status status = load(grib.path(), medium, survey, volume);

@@ -136,9 +136,9 @@ TEST_CASE("grid: each fault is one line that says where and what") {
     c.maker.of("extinction").values[3] = 2e12;
     has(c, "variable extinction: voxel 0 0 1 (index 3): too large or not a number");
     c = grid_case();
-    c.medium.resolution = {2, 2, 2};
+    c.medium.box.resolution = {2, 2, 2};
     has(c, "g.nc: resolution: not for a grid of extinction, allowed: left out");
     c = grid_case();
-    c.medium.weather.vertical_scale = 2;
+    c.medium.weather.place.vertical_scale = 2;
     has(c, "g.nc: vertical_scale: not for a grid of extinction");
 }

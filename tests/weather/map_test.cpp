@@ -77,9 +77,9 @@ TEST_CASE("map: degrees, with the cosine of the row and without") {
     // Beyond the rows the cosine goes on.
     CHECK(place(map, 2, 60)[0] == doctest::Approx(kMetres * 0.5).epsilon(1e-12));
     CHECK(map.projection().substr(0, 22) == "+proj=sinu +lon_0=1 +x");
-    c.medium.weather.plain_degrees = true;
-    c.medium.weather.origin_deg = {0, 50};
-    c.medium.weather.vertical_scale = 3;
+    c.medium.weather.place.plain_degrees = true;
+    c.medium.weather.place.origin_deg = {0, 50};
+    c.medium.weather.place.vertical_scale = 3;
     REQUIRE(map_of(c, map));
     CHECK(place(map, 2, 52, 10)[0] == doctest::Approx(2 * kMetres).epsilon(1e-12));
     CHECK(place(map, 2, 52, 10)[1] == doctest::Approx(2 * kMetres).epsilon(1e-12));

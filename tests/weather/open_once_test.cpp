@@ -24,9 +24,9 @@ TEST_CASE("weather: a file that a session keeps is opened once, whatever is read
     c.maker.globals = {{"MAP_PROJ", 1},  {"DX", 9000},      {"DY", 9000},    {"TRUELAT1", 30},
                        {"TRUELAT2", 60}, {"STAND_LON", 10}, {"CEN_LAT", 48}, {"CEN_LON", 10}};
     c.medium.density.clear();
-    c.medium.format = "netcdf";
-    c.medium.file = folder.put("w.nc", c.maker.bytes());
-    const std::string path = c.medium.file;
+    c.medium.source.format = "netcdf";
+    c.medium.source.file = folder.put("w.nc", c.maker.bytes());
+    const std::string path = c.medium.source.file;
     VolumeHead head;
     Volume volume;
     WeatherMap map;
@@ -34,33 +34,32 @@ TEST_CASE("weather: a file that a session keeps is opened once, whatever is read
     Scene scene;
     scene.camera.orthographic = true;  // its picture tells its place
     scene.media = {c.medium, c.medium};
-    share_weather_files(scene);
-    CHECK(scene.media[0].weather_file == scene.media[1].weather_file);
+    WeatherFiles files;
     std::uint64_t bytes = 0;
-    REQUIRE(density_file_bytes(scene.media[0], path, bytes));
+    REQUIRE(density_file_bytes(scene.media[0], path, bytes, &files));
     CHECK(bytes == c.maker.bytes().size());
     std::filesystem::remove(path);
     CHECK(!read_volume_head(c.medium, path, head));
     for (const MediumSettings& medium : scene.media) {
         VolumeHead kept;
-        REQUIRE(read_volume_head(medium, path, kept));
+        REQUIRE(read_volume_head(medium, path, kept, &files));
         CHECK(kept.size == head.size);
-        REQUIRE(read_volume(medium, path, volume));
+        REQUIRE(read_volume(medium, path, volume, &files));
         CHECK(volume.size == head.size);
     }
-    close_weather_files(scene);
+    close_weather_files(scene, files);
     // The map stays known.
-    REQUIRE(read_weather_map(scene.media[1], path, map));
+    REQUIRE(read_weather_map(scene.media[1], path, map, &files));
     CHECK(map.kind == MapKind::kConic);
-    CHECK(!read_volume_head(scene.media[0], path, head));
+    CHECK(!read_volume_head(scene.media[0], path, head, &files));
 }
 
 TEST_CASE("weather: a file whose name holds a # is that file, else a frame of a sequence") {
     const pileus::test::TempFolder folder;
     Scene scene;
     MediumSettings medium;
-    medium.file = folder.path("cloud#1.nc");
-    medium.first_frame = 7;
+    medium.source.file = folder.path("cloud#1.nc");
+    medium.source.first_frame = 7;
     CHECK(density_path(scene, medium) == folder.path("cloud71.nc"));
     folder.put("cloud#1.nc", "there");
     CHECK(density_path(scene, medium) == folder.path("cloud#1.nc"));

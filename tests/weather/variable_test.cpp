@@ -16,8 +16,8 @@ WeatherCase fraction_case() {
     WeatherCase c = test::content_case();
     c.maker.remove("lwc");
     c.maker.variable("cc", {"z", "y", "x"}, {0.5, 0, 1, 0.25, 0, 0.75});
-    c.medium.weather.variable = "cc";
-    c.medium.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
+    c.medium.weather.names.variable = "cc";
+    c.medium.optics.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
     return c;
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("variable: packed values count with their scale and offset, of any sig
     v.values = {-50, 0, 100, 25, 1, 75};
     v.doubles = {{"scale_factor", 0.5}, {"add_offset", -10}};
     v.texts = {{"units", "furlong fortnight-1"}};
-    c.medium.transfer = {{-100, 0.01, {1, 1, 1}}, {100, 0.02, {1, 1, 1}}};
+    c.medium.optics.transfer = {{-100, 0.01, {1, 1, 1}}, {100, 0.02, {1, 1, 1}}};
     REQUIRE(c.load());
     const float values[6] = {-35, -10, 40, 2.5f, -9.5f, 27.5f};
     for (std::size_t i = 0; i < 6; ++i) CHECK(c.volume.density[i] == values[i]);
@@ -50,7 +50,7 @@ TEST_CASE("variable: packed values count with their scale and offset, of any sig
 
 TEST_CASE("variable: cells of other sizes hold the mean over their volume") {
     WeatherCase c = fraction_case();
-    c.medium.resolution = {3, 2, 7};
+    c.medium.box.resolution = {3, 2, 7};
     REQUIRE(c.load());
     double sum = 0, before = 0;
     for (const float value : c.volume.density.span()) sum += double(value);
@@ -65,13 +65,13 @@ TEST_CASE("variable: missing is nothing, counted, and no part of a mean") {
     WeatherCase c = fraction_case();
     c.maker.of("cc").values[0] = -99;
     c.maker.of("cc").numbers = {{"_FillValue", -99}};
-    c.medium.transfer = {{0, 0.01, {1, 1, 1}}, {1, 0.02, {1, 1, 1}}};
+    c.medium.optics.transfer = {{0, 0.01, {1, 1, 1}}, {1, 0.02, {1, 1, 1}}};
     REQUIRE(c.load());
     CHECK(c.volume.missing == 1);
     CHECK(std::isnan(c.volume.density[0]));
     CHECK(c.volume.density[2] == 1.0f);
     // A third of the width, and half of that known: the mean is that of the half that is.
-    c.medium.resolution = {3, 1, 3};
+    c.medium.box.resolution = {3, 1, 3};
     REQUIRE(c.load());
     CHECK(std::isnan(c.volume.density[0]));
     CHECK(c.volume.density[1] == 0.0f);
@@ -83,15 +83,15 @@ TEST_CASE("variable: missing is nothing, counted, and no part of a mean") {
 
 TEST_CASE("variable: the heights that are seen make the box") {
     WeatherCase c = fraction_case();
-    c.medium.transfer = {{0.8, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
+    c.medium.optics.transfer = {{0.8, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
     REQUIRE(c.load());
     // 1 stands on the middle level alone.
     CHECK(c.volume.size[2] == 1);
     CHECK(c.volume.bounds_m[0][2] == doctest::Approx(600));
     CHECK(c.volume.bounds_m[1][2] == doctest::Approx(700));
     // Seen wherever there is a value: all levels. vertical_scale moves faces, not values.
-    c.medium.transfer = {{0, 0.1, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
-    c.medium.weather.vertical_scale = 3;
+    c.medium.optics.transfer = {{0, 0.1, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
+    c.medium.weather.place.vertical_scale = 3;
     REQUIRE(c.load());
     // Ten optical depths a layer, in cells of two.
     CHECK(c.volume.size[2] == 15);
@@ -103,24 +103,24 @@ TEST_CASE("variable: on pressures, and on faces, as water is") {
     WeatherCase c = test::pressure_case();
     c.maker.remove("q_liquid");
     c.maker.remove("q_ice");
-    c.medium.weather.variable = "temperature_hl";
-    c.medium.transfer = {{0, 0, {1, 1, 1}}, {300, 0.01, {1, 1, 1}}};
-    c.medium.resolution = {1, 1, 4};
+    c.medium.weather.names.variable = "temperature_hl";
+    c.medium.optics.transfer = {{0, 0, {1, 1, 1}}, {300, 0.01, {1, 1, 1}}};
+    c.medium.box.resolution = {1, 1, 4};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.volume.density[0] > 280);
     CHECK(c.volume.density[3] < 276);
     WeatherCase d = test::pressure_case();
-    d.medium.weather.variable = "q";
-    d.medium.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
-    d.medium.resolution = {1, 1, 60};
+    d.medium.weather.names.variable = "q";
+    d.medium.optics.transfer = {{0, 0, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
+    d.medium.box.resolution = {1, 1, 60};
     REQUIRE(d.load());
     CHECK(d.volume.density[0] == doctest::Approx(0.008));
 }
 
 TEST_CASE("variable: faults") {
     WeatherCase c = fraction_case();
-    c.medium.weather.variable = "none";
+    c.medium.weather.names.variable = "none";
     CHECK(c.fault().find("w.nc: variable: no such variable, \"none\", allowed: cc") == 0);
     c = fraction_case();
     c.maker.of("cc").values[3] = std::nan("");

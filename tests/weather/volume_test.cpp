@@ -20,7 +20,7 @@ double kappa(double grams, double um) { return 1.5 * grams * 1e-3 / (1000 * um *
 
 TEST_CASE("weather: content on heights, cell by cell") {
     WeatherCase c = test::content_case();
-    c.medium.resolution = {2, 1, 3};
+    c.medium.box.resolution = {2, 1, 3};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.volume.in_extinction);
@@ -46,20 +46,20 @@ TEST_CASE("weather: layers of the file are cut into cells of two optical depths"
                   doctest::Approx(kappa(grams[z / 3][x], 10)).epsilon(kFloat));
     }
     // Thin layers stay as they are, and no layer has more than sixteen cells.
-    c.medium.weather.liquid_radius_um = 200;
+    c.medium.weather.sizes.liquid_radius_um = 200;
     REQUIRE(c.load());
     CHECK(c.volume.size == std::array<int, 3>{2, 1, 3});
-    c.medium.weather.liquid_radius_um = 0.01;
+    c.medium.weather.sizes.liquid_radius_um = 0.01;
     REQUIRE(c.load());
     CHECK(c.volume.size == std::array<int, 3>{2, 1, 48});
 }
 
 TEST_CASE("weather: radii of the scene, width, exaggerated heights keep the optical depth") {
     WeatherCase c = test::content_case();
-    c.medium.weather.liquid_radius_um = 5;
-    c.medium.weather.width_m = 250;
-    c.medium.weather.vertical_scale = 4;
-    c.medium.resolution = {2, 1, 3};
+    c.medium.weather.sizes.liquid_radius_um = 5;
+    c.medium.weather.place.width_m = 250;
+    c.medium.weather.place.vertical_scale = 4;
+    c.medium.box.resolution = {2, 1, 3};
     REQUIRE(c.load());
     CHECK(c.cell_m(1) == doctest::Approx(250));
     CHECK(c.volume.bounds_m[0][2] == doctest::Approx(2000));
@@ -70,7 +70,7 @@ TEST_CASE("weather: radii of the scene, width, exaggerated heights keep the opti
 
 TEST_CASE("weather: pressures of faces from above: water path is q dp/g, depth its extinction") {
     WeatherCase c = test::pressure_case();
-    c.medium.resolution = {1, 1, 40};
+    c.medium.box.resolution = {1, 1, 40};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     const double g = 9.80665, liquid = (3e-4 + 1e-4) * 1e4 / g, ice = 1e-5 * 1e4 / g;
@@ -118,8 +118,8 @@ TEST_CASE("weather: ice by Fu's size, cloud fraction, radii of the file") {
         4 * 1.5 * l1 / (1000 * 8e-6) + 1.5 * l0 / (1000 * 12e-6) + 2 * 1.5 * i2 / (917 * 30e-6);
     CHECK(c.survey.most_depth == doctest::Approx(inside).epsilon(1e-6));
     c.medium.weather.in_cloud = false;
-    c.medium.weather.liquid = "none";
-    c.medium.weather.ice_dge_um = 40;
+    c.medium.weather.names.liquid = "none";
+    c.medium.weather.sizes.ice_dge_um = 40;
     REQUIRE(c.load());
     CHECK(c.survey.most_depth ==
           doctest::Approx(4 * std::sqrt(3.0) / 3 * i2 / (917 * 40e-6)).epsilon(1e-6));
@@ -139,7 +139,7 @@ TEST_CASE("weather: depth is conserved under any grid") {
     c.maker.variable("lwc", {"lev", "lat", "lon"}, water, "g m-3");
     for (const std::array<int, 3> size : {std::array<int, 3>{0, 0, 0}, {7, 5, 3}, {64, 3, 50}}) {
         CAPTURE(size[0]);
-        c.medium.resolution = size;
+        c.medium.box.resolution = size;
         const Status status = c.load();
         REQUIRE_MESSAGE(status, status.message);
         CHECK(c.total() == doctest::Approx(c.survey.depth_m2).epsilon(1e-6));
@@ -155,7 +155,7 @@ TEST_CASE("weather: depth is conserved under any grid") {
 
 TEST_CASE("weather: columns keep their depth where cells are footprints") {
     WeatherCase c = test::content_case();
-    c.medium.resolution = {2, 1, 7};  // layers that no level fits
+    c.medium.box.resolution = {2, 1, 7};  // layers that no level fits
     REQUIRE(c.load());
     CHECK(c.depth(0, 0) == doctest::Approx(100 * kappa(0.3, 10)).epsilon(1e-6));
     CHECK(c.depth(1, 0) == doctest::Approx(100 * kappa(0.7, 10)).epsilon(1e-6));
@@ -168,7 +168,7 @@ TEST_CASE("weather: packed numbers, missing values, undershoots") {
     lwc.values = {50, -999, 150, 350, -50, 250};
     lwc.numbers = {{"_FillValue", -999}};
     lwc.doubles = {{"scale_factor", 0.001}, {"add_offset", 0.05}};
-    c.medium.resolution = {2, 1, 3};
+    c.medium.box.resolution = {2, 1, 3};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.volume.missing == 1);

@@ -75,7 +75,7 @@ void run_path(benchmark::State& state, Bench& bench, const PathCase& which,
         return;
     in.majorants = blocks.tracking.span();
     in.block = blocks.block;
-    if (which.every_ray) in.light_roulette = 0;
+    if (which.every_ray) in.rules.light_roulette = 0;
     in.camera = make_camera(p->scene.camera, 0, p->scenery.world->medium.low_m);
     in.seed = std::uint64_t(p->scene.seed);
     in.kernels = kernels;

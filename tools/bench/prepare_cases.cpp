@@ -21,7 +21,7 @@ void run_prepare(benchmark::State& state, Bench& bench, const PrepareCase& which
     ReadyScene* p = bench.prepared(state, which.scene, {});
     if (p == nullptr) return;
     CollectorSettings settings = p->scene.collectors;
-    settings.samples = which.samples;
+    settings.placement.samples = which.samples;
     Report report;
     Context context = with(p->context, p->context.kernels, which.threads);
     context.report = &report;

@@ -14,12 +14,12 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 32;
 
 Status read_file(const std::string& path, BlockSums& blocks) {
     Buffer<char> text;
     PILEUS_TRY(check_file_name(path));
-    PILEUS_TRY(read_whole_file(path, kMostBytes, text));
+    PILEUS_TRY(read_whole_file(path, kMaxBytes, text));
     return read_blocks(path, {text.data(), text.size()}, blocks);
 }
 

@@ -55,8 +55,8 @@ Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_r
 
 Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
     MediumSettings form;
-    form.raw_big_endian = arguments.raw.big_endian;
-    PILEUS_TRY(read_raw_type(arguments.raw, form.raw_type));
+    form.source.raw_big_endian = arguments.raw.big_endian;
+    PILEUS_TRY(read_raw_type(arguments.raw, form.source.raw_type));
     return volume_format_of(arguments.to)->write(form, arguments.to, volume);
 }
 
@@ -77,7 +77,7 @@ Status read_made_options(const ConvertArguments& arguments, MediumSettings& medi
         if (cells < 1 || cells > kMaxVolumeSide)
             return Status::bad_input("--resolution: out of range, " + std::to_string(cells) +
                                      ", allowed: 1 to " + std::to_string(kMaxVolumeSide));
-        medium.resolution[a] = cells;
+        medium.box.resolution[a] = cells;
     }
     return Status::ok();
 }
@@ -122,7 +122,7 @@ Status run_convert(const ConvertArguments& arguments) {
     bool from_raw = false, to_raw = false;
     PILEUS_TRY(check_files(arguments, from_raw, to_raw));
     MediumSettings medium;
-    medium.grid = arguments.grid;
+    medium.source.grid = arguments.grid;
     PILEUS_TRY(read_made_options(arguments, medium));
     RawType type;
     PILEUS_TRY(read_raw_type(arguments.raw, type));

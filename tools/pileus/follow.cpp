@@ -16,8 +16,8 @@ namespace pileus {
 
 namespace {
 
-constexpr std::int64_t kMostLights = 64;
-constexpr std::int64_t kMostPhotons = 0xffffffff;
+constexpr std::int64_t kMaxLights = 64;
+constexpr std::int64_t kMaxPhotons = 0xffffffff;
 
 struct FollowArguments {
     SceneArguments scene;
@@ -44,8 +44,8 @@ Status run_follow(const FollowArguments& arguments) {
     RenderOptions options;
     std::int64_t photon = 0, light = 0;
     Status faults;
-    add_fault(read_integer("--photon", arguments.photon, 0, kMostPhotons, photon), faults);
-    add_fault(read_integer("--light", arguments.light, 0, kMostLights, light), faults);
+    add_fault(read_integer("--photon", arguments.photon, 0, kMaxPhotons, photon), faults);
+    add_fault(read_integer("--light", arguments.light, 0, kMaxLights, light), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
     PhotonWay way;

@@ -17,9 +17,9 @@ namespace pileus {
 namespace {
 
 constexpr std::size_t kDigits = 16;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24;
 /// Malformed lines that are told: a file that is no list has little else.
-constexpr int kMostFaults = 10;
+constexpr int kMaxFaults = 10;
 
 std::string plain_name(const std::string& name) {
     return std::filesystem::path(name).lexically_normal().string();
@@ -101,7 +101,7 @@ Status check_frame_hashes(const std::vector<std::string>& hashes, int frames) {
 Status read_hash_list(const std::string& path, std::vector<ListedHash>& list) {
     Buffer<char> bytes;
     PILEUS_TRY(check_file_name(path));
-    PILEUS_TRY(read_whole_file(path, kMostBytes, bytes));
+    PILEUS_TRY(read_whole_file(path, kMaxBytes, bytes));
     const Span<const char> text = without_mark(bytes.span());
     return parse_hash_list(path, std::string(text.data, text.size), list);
 }
@@ -110,7 +110,7 @@ Status parse_hash_list(const std::string& path, const std::string& text,
                        std::vector<ListedHash>& list) {
     Status faults;
     int number = 0, malformed = 0;
-    for (std::size_t at = 0; at < text.size() && malformed < kMostFaults;) {
+    for (std::size_t at = 0; at < text.size() && malformed < kMaxFaults;) {
         const std::size_t end = text.find('\n', at);
         const std::string line = without_end(text.substr(at, end - at));
         at = end == std::string::npos ? text.size() : end + 1;

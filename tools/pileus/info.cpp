@@ -115,7 +115,7 @@ Status run_info(const InfoArguments& arguments) {
         PILEUS_TRY(arguments.scene ? scene_text_of(arguments.file, lines)
                                    : image_lines(arguments.file, lines));
     } else if (volume != nullptr) {
-        medium.grid = arguments.grid;
+        medium.source.grid = arguments.grid;
         if (volume->bare) PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
         PILEUS_TRY(volume->is_weather ? weather_lines(arguments.file, medium, lines)
                                       : volume_lines(arguments.file, medium, lines));

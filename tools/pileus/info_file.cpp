@@ -49,15 +49,15 @@ std::string range_text(const Range& range) {
 
 std::string density_name(const MediumSettings& medium) {
     const DensityRow* row = density_row(medium.density);
-    if (row == nullptr) return medium.file;
+    if (row == nullptr) return medium.source.file;
     return row->name + (row->detail == nullptr ? "" : row->detail(medium));
 }
 
 std::string extinction_text(const MediumSettings& medium) {
-    const VolumeFormat* format = volume_format_named(medium.format);
+    const VolumeFormat* format = volume_format_named(medium.source.format);
     if (format != nullptr && format->in_extinction)
-        return fmt::format("{:g} times the file's", medium.extinction_scale);
-    return fmt::format("{:g} per m", medium.extinction_per_m);
+        return fmt::format("{:g} times the file's", medium.optics.extinction_scale);
+    return fmt::format("{:g} per m", medium.optics.extinction_per_m);
 }
 
 std::string list_text(const std::vector<std::string>& texts) {
@@ -114,10 +114,10 @@ Status scene_lines(const std::string& path, std::string& lines) {
     if (scene.ground.present)
         lines += info_line("ground", fmt::format("albedo {:g}", scene.ground.albedo));
     for (const MediumSettings& medium : scene.media)
-        lines +=
-            info_line("medium", fmt::format("{}, extinction {}, albedo {:g} {:g} {:g}",
-                                            density_name(medium), extinction_text(medium),
-                                            medium.albedo[0], medium.albedo[1], medium.albedo[2]));
+        lines += info_line(
+            "medium", fmt::format("{}, extinction {}, albedo {:g} {:g} {:g}", density_name(medium),
+                                  extinction_text(medium), medium.optics.albedo[0],
+                                  medium.optics.albedo[1], medium.optics.albedo[2]));
     if (scene.clouds.present())
         lines += cloud_lines(scene.clouds);
     else if (const auto photons = method_tools(scene.method).photons)

@@ -14,7 +14,7 @@ namespace pileus {
 
 namespace {
 
-constexpr std::uint64_t kMostValues = std::uint64_t{1} << 24;  // of a variable whose range is told
+constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 24;  // of a variable whose range is told
 
 std::string dimension_lines(const NcFile& file) {
     std::string text;
@@ -29,7 +29,7 @@ Status range_text(const NcFile& file, const NcVariable& v, std::string& text) {
     const NcBlock block = whole_block(file.head(), v);
     const std::uint64_t count = block.values();
     if (v.type == NcType::kChar || v.type == NcType::kOther || count == 0) return Status::ok();
-    if (count > kMostValues) {
+    if (count > kMaxValues) {
         text = fmt::format(", {} values", count);
         return Status::ok();
     }

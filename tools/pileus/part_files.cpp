@@ -46,7 +46,7 @@ Status choose_part(const std::string& text, int run, RenderOptions& options) {
     if (slash == std::string::npos)
         return Status::bad_input("--part: " + quote_text(text) +
                                  ", allowed: I/N, such as 2/8, 1 <= I <= N");
-    PILEUS_TRY(read_integer("--part N", text.substr(slash + 1), 1, kMostParts, count));
+    PILEUS_TRY(read_integer("--part N", text.substr(slash + 1), 1, kMaxParts, count));
     PILEUS_TRY(read_integer("--part I", text.substr(0, slash), 1, count, index));
     if (run == 0) {
         options.part = {std::uint32_t(index - 1), std::uint32_t(count), true};

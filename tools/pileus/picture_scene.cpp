@@ -206,9 +206,9 @@ Status check_scene_files(const PictureScene& picture, const Scene& scene) {
     at.world.sequence_frame = picture.frame;
     std::vector<std::string> files;
     for (MediumSettings& medium : at.media)
-        if (is_sequence(medium.file)) {
+        if (is_sequence(medium.source.file)) {
             files.push_back(density_path(at, medium));
-            medium.file.clear();
+            medium.source.file.clear();
         }
     if (is_sequence(at.view_files.depth)) {
         files.push_back(depth_path(at));

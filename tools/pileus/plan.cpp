@@ -108,7 +108,7 @@ Status tell_ranks(const PlanArguments& arguments, const Scene& scene, const Plan
     std::int64_t most = 0;
     RankLink link;
     MethodRow row;
-    PILEUS_TRY(read_integer("--ranks", *arguments.ranks, 1, kMostParts, most));
+    PILEUS_TRY(read_integer("--ranks", *arguments.ranks, 1, kMaxParts, most));
     if (arguments.link) PILEUS_TRY(read_link(*arguments.link, link));
     PILEUS_TRY(find_method(scene, row));
     const std::vector<RankCost> costs = rank_costs(plan, row.division, link, int(most));

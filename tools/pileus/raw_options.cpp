@@ -38,10 +38,10 @@ Status read_raw_facts(const std::string& file, const RawOptions& options, Medium
     for (std::size_t a = 0; a < 3; ++a) {
         std::int64_t side = 0;
         PILEUS_TRY(read_integer("--size", options.size[a], 1, kMaxVolumeSide, side));
-        medium.raw_size[a] = int(side);
+        medium.source.raw_size[a] = int(side);
     }
-    medium.raw_big_endian = options.big_endian;
-    return read_raw_type(options, medium.raw_type);
+    medium.source.raw_big_endian = options.big_endian;
+    return read_raw_type(options, medium.source.raw_type);
 }
 
 }  // namespace pileus

@@ -47,14 +47,14 @@ struct RenderArguments {
 };
 
 Status read_state(const RenderArguments& arguments, RenderOptions& options) {
-    constexpr double kMostSeconds = 1e9;
+    constexpr double kMaxSeconds = 1e9;
     options.budget.state = arguments.state.value_or("");
     if (arguments.state && options.budget.state.empty())
         return Status::bad_input("--state: no name, \"\", allowed: the name of a file");
     if (!arguments.state_every) return Status::ok();
     if (!arguments.state)
         return Status::bad_input("--state-every: without --state, allowed: both or neither");
-    return read_number("--state-every", *arguments.state_every, 1e-3, kMostSeconds,
+    return read_number("--state-every", *arguments.state_every, 1e-3, kMaxSeconds,
                        options.budget.state_every_s);
 }
 

@@ -10,6 +10,7 @@
 
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/plan/report_json.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/world/camera/places.h"
@@ -93,8 +94,9 @@ Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOpt
 
 Status add_world_files(const Scene& scene, Outputs& outputs) {
     Scene placed = scene;
-    PILEUS_TRY(place_camera(placed));
-    if (picture_place(placed, placed.camera, 0).empty())
+    WeatherFiles files;
+    PILEUS_TRY(place_camera(placed, &files));
+    if (picture_place(placed, placed.camera, 0, &files).empty())
         return Status::bad_input(scene.file +
                                  ": --world-file: no map, allowed: an orthographic camera that "
                                  "looks straight down on weather data");

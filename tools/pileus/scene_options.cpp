@@ -19,10 +19,10 @@ namespace pileus {
 
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 32;
-constexpr double kMostSeconds = 1e9;
-constexpr std::int64_t kMostSteps = 65536;
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 32;
+constexpr double kMaxSeconds = 1e9;
+constexpr std::int64_t kMaxSteps = 65536;
 
 Status check_isa(const std::string& name) {
     const KernelTable* kernels = nullptr;
@@ -34,17 +34,17 @@ Status read_budget(const std::string& text, RenderOptions& options) {
     const std::string kind = text.substr(0, equals);
     const std::string amount = equals == std::string::npos ? "" : text.substr(equals + 1);
     if (kind == "photons")
-        return read_integer("--budget photons", amount, 0, kMost, options.budget.photons);
+        return read_integer("--budget photons", amount, 0, kMax, options.budget.photons);
     if (kind == "seconds")
-        return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget.seconds);
+        return read_number("--budget seconds", amount, 1e-3, kMaxSeconds, options.budget.seconds);
     if (kind == "generations")
-        return read_integer("--budget generations", amount, 1, kMost, options.budget.generations);
+        return read_integer("--budget generations", amount, 1, kMax, options.budget.generations);
     if (kind == "samples")
-        return read_integer("--budget samples", amount, 1, kMostSamples, options.budget.samples);
+        return read_integer("--budget samples", amount, 1, kMaxSamples, options.budget.samples);
     if (kind == "error")
         return read_number("--budget error", amount, 1e-6, 1, options.budget.error);
     if (kind == "steps")
-        return read_integer("--budget steps", amount, 0, kMostSteps, options.budget.steps);
+        return read_integer("--budget steps", amount, 0, kMaxSteps, options.budget.steps);
     return Status::bad_input(
         "--budget: unknown kind, " + quote_text(text) +
         ", allowed: photons=N, generations=N, samples=N, steps=N, error=E, seconds=S");
@@ -176,7 +176,7 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
     for (const std::string& limit : arguments.limits)
         add_fault(set_limit(limit, options.limits), faults);
     std::int64_t seed = 0;
-    if (arguments.seed) add_fault(read_integer("--seed", *arguments.seed, 0, kMost, seed), faults);
+    if (arguments.seed) add_fault(read_integer("--seed", *arguments.seed, 0, kMax, seed), faults);
     add_fault(read_any_scene(arguments, arguments.sets, scene), faults);
     PILEUS_TRY(faults);
     if (arguments.quality) PILEUS_TRY(read_quality(arguments, scene));

@@ -17,7 +17,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostScriptBytes = 1 << 20;
+constexpr std::uint64_t kMaxScriptBytes = 1 << 20;
 
 struct ViewArguments {
     view::Settings settings;
@@ -47,7 +47,7 @@ Status run_view(ViewArguments& arguments) {
     std::unique_ptr<view::Window> window;
     if (!arguments.script.empty()) {
         Buffer<char> bytes;
-        PILEUS_TRY(read_whole_file(arguments.script, kMostScriptBytes, bytes));
+        PILEUS_TRY(read_whole_file(arguments.script, kMaxScriptBytes, bytes));
         const Span<const char> text = without_mark(bytes.span());
         PILEUS_TRY(view::open_script_window({text.data, text.size}, s.width, s.height, window));
     } else {

@@ -197,9 +197,9 @@ private:
 
 Status drawing_pixels(const PlotDrawing& drawing, int scale, int& width, int& height,
                       Buffer<std::uint8_t>& rgb) {
-    constexpr double kMostSide = 4096;
-    const bool sound = drawing.width >= 1 && drawing.width <= kMostSide && drawing.height >= 1 &&
-                       drawing.height <= kMostSide && scale >= 1 && scale <= 8;
+    constexpr double kMaxSide = 4096;
+    const bool sound = drawing.width >= 1 && drawing.width <= kMaxSide && drawing.height >= 1 &&
+                       drawing.height <= kMaxSide && scale >= 1 && scale <= 8;
     if (!sound) return Status::bad_input("drawing: size: out of range, allowed: 1 to 4096, 1 to 8");
     width = int(drawing.width) * scale;
     height = int(drawing.height) * scale;

@@ -14,12 +14,12 @@ namespace pileus {
 
 namespace {
 
-constexpr std::uint64_t kMostText = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMaxText = std::uint64_t{1} << 28;
 
 /// Files beside a .gltf; none where it cannot be read, which its reader will say.
 void add_buffers(const std::string& path, std::vector<std::string>& files) {
     Buffer<char> text;
-    if (!read_whole_file(path, kMostText, text)) return;
+    if (!read_whole_file(path, kMaxText, text)) return;
     // Keep the buffers alone: whatever else the text holds takes no memory.
     using PlainJson = nlohmann::json;
     const auto wanted = [](int depth, PlainJson::parse_event_t event, PlainJson& parsed) {
@@ -50,12 +50,12 @@ void add_files(const Scene& scene, std::vector<std::string>& files) {
             files.push_back(path());
     };
     for (const MediumSettings& medium : scene.media) {
-        if (is_sequence(medium.file)) {
+        if (is_sequence(medium.source.file)) {
             each_frame([&] { return density_path(at, medium); });
         } else {
-            add(medium.file);
+            add(medium.source.file);
         }
-        add(medium.phase.file);
+        add(medium.optics.phase.file);
     }
     add(scene.view_files.sky_map);
     for (const SolidSettings& solid : scene.solids) {

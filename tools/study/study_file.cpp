@@ -18,9 +18,9 @@ namespace pileus {
 
 namespace {
 
-constexpr std::size_t kMostTables = 64;
-constexpr std::size_t kMostCurves = 64;
-constexpr double kMostSeed = 0x1p62;
+constexpr std::size_t kMaxTables = 64;
+constexpr std::size_t kMaxCurves = 64;
+constexpr double kMaxSeed = 0x1p62;
 
 /// A node that has the kind its row asks for; null after a fault or where it is not given.
 const Node* text_at(const Node& table, const char* key) {
@@ -66,7 +66,7 @@ public:
         std::int64_t seeds = study_.seeds;
         take_integer(root, "seeds", 64, seeds);
         study_.seeds = int(seeds);
-        take_integer(root, "first_seed", kMostSeed, study_.first_seed);
+        take_integer(root, "first_seed", kMaxSeed, study_.first_seed);
         const Node* targets = root.find("targets");
         if (targets != nullptr && targets->is_array() && targets->children.size() == 2)
             study_.targets = number2_of(*targets);
@@ -85,7 +85,7 @@ private:
         std::vector<const Node*> found;
         const Node* list = parent.find(key);
         bool good = list != nullptr && list->is_array() && !list->children.empty() &&
-                    list->children.size() <= kMostTables;
+                    list->children.size() <= kMaxTables;
         if (good)
             for (const Node& child : list->children) good = good && child.is_table();
         if (!good) {
@@ -112,7 +112,7 @@ private:
         study_.reference.budget = text_of(node, "budget", "");
         if (const Node* budget = text_at(node, "budget"))
             check_budget(*budget, "reference.budget", nullptr);
-        take_integer(node, "first_seed", kMostSeed, study_.reference.first_seed);
+        take_integer(node, "first_seed", kMaxSeed, study_.reference.first_seed);
     }
 
     void check_budget(const Node& node, const std::string& path, std::string* kind_of_all) {
@@ -185,7 +185,7 @@ private:
     }
 
     void add_curve(const StudyCurve& curve, const Node& node, const std::string& path) {
-        if (study_.curves.size() < kMostCurves) return study_.curves.push_back(curve);
+        if (study_.curves.size() < kMaxCurves) return study_.curves.push_back(curve);
         fault(node, path, "too many methods and settings, allowed: at most 64");
     }
 

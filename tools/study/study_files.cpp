@@ -14,7 +14,7 @@ namespace pileus {
 
 namespace {
 
-constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 34;
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Status StudyFiles::digest_file(const std::string& path, std::uint64_t& digest) {
         return Status::ok();
     }
     Buffer<char> bytes;
-    PILEUS_TRY(read_whole_file(path, kMostFileBytes, bytes));
+    PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
     Digest sum;
     sum.bytes(bytes.data(), bytes.size());
     digest = sum.value();

@@ -11,7 +11,7 @@ namespace pileus {
 
 namespace {
 
-constexpr double kMost = 0x1p62;
+constexpr double kMax = 0x1p62;
 
 const KeyRow kTop[] = {
     {"title", KeyKind::kText, any(), "", "heading of the page; left out: the file's name", kNoNote},
@@ -19,7 +19,7 @@ const KeyRow kTop[] = {
      "times that every picture is made, each with a seed of its own; 3 and more tell bias "
      "and noise apart with a standard error",
      "3"},
-    {"first_seed", KeyKind::kInteger, from_to(0, kMost), "", "the first of them; the others follow",
+    {"first_seed", KeyKind::kInteger, from_to(0, kMax), "", "the first of them; the others follow",
      "1"},
     {"targets", KeyKind::kNumber2, positive(1), "",
      "the two errors (relMSE) for which the time is asked", "[0.01, 0.001]"},
@@ -29,7 +29,7 @@ const KeyRow kReference[] = {
     {"set", KeyKind::kTexts, any(), "", "settings of the reference, as after `--set`", "[]"},
     {"budget", KeyKind::kText, any(), "",
      "of each of its two halves, as after `--budget`: `samples=256`", kRequired},
-    {"first_seed", KeyKind::kInteger, from_to(0, kMost), "",
+    {"first_seed", KeyKind::kInteger, from_to(0, kMax), "",
      "seed of the first half; the second has the next one", "1_000_001"},
 };
 

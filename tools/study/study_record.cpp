@@ -15,11 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24;
 
 bool read_json(const std::string& path, Json& json) {
     Buffer<char> bytes;
-    if (!read_whole_file(path, kMostBytes, bytes) || bytes.empty()) return false;
+    if (!read_whole_file(path, kMaxBytes, bytes) || bytes.empty()) return false;
     json = Json::parse(bytes.data(), bytes.data() + bytes.size(), nullptr, false);
     return json.is_object();
 }

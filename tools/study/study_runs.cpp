@@ -17,7 +17,7 @@ namespace pileus {
 
 namespace {
 
-constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 34;
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 
 void add_text(const std::string& text, Digest& digest) {
     digest.u64(text.size());
@@ -26,7 +26,7 @@ void add_text(const std::string& text, Digest& digest) {
 
 Status add_file(const std::string& path, Digest& digest) {
     Buffer<char> bytes;
-    PILEUS_TRY(read_whole_file(path, kMostFileBytes, bytes));
+    PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
     digest.u64(bytes.size());
     digest.bytes(bytes.data(), bytes.size());
     return Status::ok();

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <vector>
 
+#include "src/base/angles.h"
+
 namespace pileus {
 
 struct WeighedBall {
@@ -42,7 +44,7 @@ inline double exact_depth(const WeighedBall& b, const WeighedRay& r) {
 /// The whole of it by its distance, with the same integral over all distances; `spread` of the
 /// Gaussian in radii.
 inline double weighed_depth(const WeighedBall& b, const WeighedRay& r, double spread) {
-    constexpr double kPiD = 3.14159265358979323846, kMass = 32 * kPiD / 105;
+    constexpr double kMass = 32 * kPi64 / 105;
     double along = 0, square = 0;
     for (int a = 0; a < 3; ++a) along += (b.at[a] - r.from[a]) * r.way[a];
     if (along < 0) along = 0;
@@ -52,7 +54,7 @@ inline double weighed_depth(const WeighedBall& b, const WeighedRay& r, double sp
     }
     if (square >= 1) return 0;
     const double over = 1 / (2 * spread * spread);
-    return b.density * b.radius * kMass * over / kPiD / (1 - std::exp(-over)) *
+    return b.density * b.radius * kMass * over / kPi64 / (1 - std::exp(-over)) *
            std::exp(-square * over);
 }
 

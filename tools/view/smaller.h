@@ -17,7 +17,7 @@ public:
         if (!(frame_s > 0)) return by_;
         const double times = frame_s / target_s;
         // Sooner where no less work would do.
-        slow_ = by_ == kMost || times < 1.05 ? slow_ / 2 : slow_ + (times < 4 ? 1 : kPatience / 4);
+        slow_ = by_ == kMax || times < 1.05 ? slow_ / 2 : slow_ + (times < 4 ? 1 : kPatience / 4);
         quick_ = by_ > 1 && level == 0 && times < 0.2 ? quick_ + 1 : 0;
         if (slow_ < kPatience && quick_ < kPatience) return by_;
         by_ = slow_ < kPatience ? by_ / 2 : by_ * 2;
@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    static constexpr int kPatience = 20, kMost = 4;
+    static constexpr int kPatience = 20, kMax = 4;
     int by_ = 1, slow_ = 0, quick_ = 0;
 };
 

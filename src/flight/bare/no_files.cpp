@@ -30,8 +30,8 @@ Status outline_own_world(const Scene&, WorldUse, const HostMedia&, const Context
 Status load_world(const Scene&, const HostMedia&, const Context&, World&) {
     return no_files("world");
 }
-Status place_camera(Scene&) { return Status::ok(); }
-void share_weather_files(Scene&) {}
+Status place_camera(Scene&, WeatherFiles*) { return Status::ok(); }
+std::shared_ptr<WeatherFiles> make_weather_files() { return nullptr; }
 Status check_changed(const char* key, const Scene&, void (*)(const void*, Scene&), const void*) {
     return Status::bad_input(std::string("session: ") + key +
                              ": refused in a flight, allowed: docs/flight.md, \"What may change\"");

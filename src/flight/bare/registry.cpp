@@ -27,7 +27,7 @@ Status check_parts(const Scene& scene) {
     constexpr const char* kOption = "PILEUS_FLIGHT_LEFT_OUT";
     bool shines = !scene.lights.empty();
     for (const MediumSettings& medium : scene.media)
-        for (const float emission : medium.emission) shines |= emission > 0;
+        for (const float emission : medium.optics.emission) shines |= emission > 0;
     if (!kLights && shines) return without("[[light]], emission: they were", kOption);
     if (!kAtmosphere && scene.atmosphere.present) return without("atmosphere: it was", kOption);
     return Status::ok();

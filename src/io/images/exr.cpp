@@ -101,8 +101,8 @@ std::array<float, 16> from_matrix(const Imath::M44f& matrix) {
 Imf::Header sized_header(const Image& image) {
     const DisplayWindow& shown = image.display;
     // What other programs count from far away is counted from here.
-    constexpr std::int64_t kMost = 1 << 24;
-    const auto far = [](std::int64_t v) { return v < -kMost || v > kMost; };
+    constexpr std::int64_t kMax = 1 << 24;
+    const auto far = [](std::int64_t v) { return v < -kMax || v > kMax; };
     if (shown.width == 0 || far(shown.x) || far(shown.y) || far(shown.width) || far(shown.height))
         return Imf::Header(image.width, image.height);
     const Imath::V2i first(int(-shown.x), int(-shown.y));

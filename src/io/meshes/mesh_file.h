@@ -20,7 +20,7 @@ struct Mesh {
 };
 
 /// Coordinates of a file stay within this, either way.
-constexpr double kMostCoordinate = 1e12;
+constexpr double kMaxCoordinate = 1e12;
 
 /// Reads all triangles; polygons become fans of them around their first corner. Missing, malformed,
 /// without triangles, or a build that cannot read meshes: kBadInput; over the limits `file` and

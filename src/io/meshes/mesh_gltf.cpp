@@ -20,7 +20,7 @@ namespace pileus {
 #ifdef PILEUS_WITH_ASSIMP
 namespace {
 
-constexpr std::size_t kMostNodes = std::size_t{1} << 20;
+constexpr std::size_t kMaxNodes = std::size_t{1} << 20;
 
 /// Row-major; the last row is always 0 0 0 1.
 struct Placement {
@@ -91,7 +91,7 @@ Status Triangles::add_corner(const aiMesh& from, unsigned index, const Placement
     for (int r = 0; r < 3; ++r) {
         const double* m = place.m[r];
         const double x = m[0] * at[0] + m[1] * at[1] + m[2] * at[2] + m[3];
-        if (!(x >= -kMostCoordinate && x <= kMostCoordinate))
+        if (!(x >= -kMaxCoordinate && x <= kMaxCoordinate))
             return fault("vertex " + std::to_string(index) +
                          ": not a number or too far away, allowed: -1e12 to 1e12");
         to[r] = x;
@@ -131,7 +131,7 @@ Status Triangles::walk(Mesh* mesh) {
     while (!stack.empty()) {
         const Item item = stack.back();
         stack.pop_back();
-        if (++seen > kMostNodes) return fault("too many nodes, allowed: up to 1048576");
+        if (++seen > kMaxNodes) return fault("too many nodes, allowed: up to 1048576");
         for (unsigned i = 0; i < item.node->mNumMeshes; ++i) {
             const unsigned index = item.node->mMeshes[i];
             if (index >= scene_.mNumMeshes) return fault("a node names a mesh that is not there");

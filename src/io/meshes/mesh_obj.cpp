@@ -42,7 +42,7 @@ Status Reader::vertex(TextRange line, Span<double> to) const {
         skip(line);
         const std::size_t begin = line.at;
         PILEUS_TRY(number(line, "v", to[a]));
-        if (!(to[a] >= -kMostCoordinate && to[a] <= kMostCoordinate))
+        if (!(to[a] >= -kMaxCoordinate && to[a] <= kMaxCoordinate))
             return fault(begin, "v: out of range, " + token(begin, line.end) +
                                     ", allowed: number in [-1e12, 1e12]");
     }

@@ -71,7 +71,7 @@ Status Reader::item(const PlyElement& e, std::uint64_t number, std::uint64_t& tr
         PILEUS_TRY(value(p.type, v));
         for (std::size_t a = 0; a < 3 && vertex; ++a) {
             if (p.name != axes[a]) continue;
-            if (!(v >= -kMostCoordinate && v <= kMostCoordinate))
+            if (!(v >= -kMaxCoordinate && v <= kMaxCoordinate))
                 return fault(begin,
                              "vertex: not a number or out of range, allowed: number in "
                              "[-1e12, 1e12]");

@@ -10,8 +10,8 @@ namespace {
 
 using Bytes = Span<const unsigned char>;
 
-constexpr unsigned kMostBits = 32;   ///< of a packed value
-constexpr unsigned kMostWidth = 31;  ///< of a value within a group
+constexpr unsigned kMaxBits = 32;   ///< of a packed value
+constexpr unsigned kMaxWidth = 31;  ///< of a value within a group
 
 std::string range_fault(const char* what, std::uint64_t value, std::uint64_t least,
                         std::uint64_t most) {
@@ -68,7 +68,7 @@ std::string complex_fault(Bytes s, Bytes data, std::uint64_t count) {
     if (s.at(22) > 2) return range_fault("kinds of missing values", s.at(22), 0, 2);
     if (groups > count) return range_fault("groups", groups, 0, count);
     for (const unsigned b : {bits, width_bits, length_bits})
-        if (b > kMostWidth) return range_fault("bits of a group", b, 0, kMostWidth);
+        if (b > kMaxWidth) return range_fault("bits of a group", b, 0, kMaxWidth);
     const std::uint64_t widths = extra + bytes_for(groups * bits),
                         lengths = widths + bytes_for(groups * width_bits),
                         values = lengths + bytes_for(groups * length_bits);
@@ -79,7 +79,7 @@ std::string complex_fault(Bytes s, Bytes data, std::uint64_t count) {
         const std::uint64_t width = least_width + width_at.take(width_bits);
         std::uint64_t length = least_length + step * length_at.take(length_bits);
         if (i + 1 == groups) length = last;
-        if (width > kMostWidth) return range_fault("width of a group", width, 0, kMostWidth);
+        if (width > kMaxWidth) return range_fault("width of a group", width, 0, kMaxWidth);
         if (length > count - sum) return range_fault("length of a group", length, 0, count - sum);
         sum += length;
         all_bits += length * width;
@@ -103,8 +103,8 @@ std::string jpeg_fault(Bytes data, std::uint64_t count) {
     // Places of the picture and of its tiles are 0, a tile is no smaller than the picture.
     const bool plain = grib_number(data, 16, 8) == 0 && grib_number(data, 24, 4) >= width &&
                        grib_number(data, 28, 4) >= height && grib_number(data, 32, 8) == 0;
-    const bool one = grib_number(data, 40, 2) == 1 && data.at(42) < kMostWidth &&
-                     data.at(43) == 1 && data.at(44) == 1;
+    const bool one = grib_number(data, 40, 2) == 1 && data.at(42) < kMaxWidth && data.at(43) == 1 &&
+                     data.at(44) == 1;
     if (!plain || !one) return "values: JPEG 2000 of another layout, allowed: one tile, one plane";
     return "";
 }
@@ -163,7 +163,7 @@ std::string packed_fault_2(const GribSections& field, std::uint64_t count) {
         return "";
     }
     const unsigned bits = s.at(19);
-    if (bits > kMostBits) return range_fault("bits per value", bits, 0, kMostBits);
+    if (bits > kMaxBits) return range_fault("bits per value", bits, 0, kMaxBits);
     if (packing == 2 || packing == 3) return complex_fault(s, data, count);
     // Of a field with one value everywhere there is nothing but that.
     if (bits == 0 || count == 0) return "";
@@ -226,7 +226,7 @@ std::string fault_of_1(const GribSections& field, std::uint64_t nx, std::uint64_
     // 1 says of values that they are whole numbers.
     if ((flags & ~2u) != 0 || grib_number(data, 4, 2) == 0xffff)
         return "packing: not simple, allowed: simple (grib_set -r -s packingType=grid_simple)";
-    if (bits > kMostBits) return range_fault("bits per value", bits, 0, kMostBits);
+    if (bits > kMaxBits) return range_fault("bits per value", bits, 0, kMaxBits);
     const std::uint64_t needed = bytes_for(count * bits + (bits > 0 ? unused : 0));
     return data.size - 11 < needed ? short_fault("values", data.size - 11, needed) : "";
 }
@@ -257,7 +257,7 @@ std::uint64_t seconds_of(unsigned unit, bool first) {
 
 /// ecCodes looks a unit up beyond the end of its table, and counts days one by one.
 std::string grib_time_fault(const GribSections& sections) {
-    constexpr std::uint64_t kMostSeconds = std::uint64_t{100} * 366 * 86400;
+    constexpr std::uint64_t kMaxSeconds = std::uint64_t{100} * 366 * 86400;
     const bool first = sections.edition == 1;
     const Bytes s = first ? sections.of[1] : sections.of[4];
     const std::string date = date_fault(sections.of[1], first ? 13 : 14, first);
@@ -278,8 +278,8 @@ std::string grib_time_fault(const GribSections& sections) {
         return "unit of time: " + std::to_string(s.at(17)) +
                ", allowed: seconds to days (0, 1, 2, 10 to 13)";
     const std::uint64_t steps = first ? 0 : grib_number(s, 18, 4);
-    if (steps > kMostSeconds / each)
-        return range_fault("forecast time", steps, 0, kMostSeconds / each);
+    if (steps > kMaxSeconds / each)
+        return range_fault("forecast time", steps, 0, kMaxSeconds / each);
     return "";
 }
 

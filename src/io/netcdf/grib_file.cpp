@@ -23,8 +23,8 @@ namespace {
 
 std::mutex one_at_a_time;
 
-constexpr std::uint64_t kMostValues = std::uint64_t{1} << 31;  // of all fields together
-constexpr std::size_t kMostFields = std::size_t{1} << 18;
+constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 31;  // of all fields together
+constexpr std::size_t kMaxFields = std::size_t{1} << 18;
 /// What ecCodes takes for each value while it unpacks a field, and we beside it.
 constexpr std::uint64_t kBytesUnpacking = 48;
 /// A field is held until it is laid out, and again as a variable.
@@ -51,9 +51,9 @@ private:
         for (std::size_t count = 0;; ++count) {
             PILEUS_TRY(walk.next(more));
             if (!more) break;
-            if (count >= kMostFields)
+            if (count >= kMaxFields)
                 return Status::limit(name_ + ": GRIB: too many fields, allowed: at most " +
-                                     std::to_string(kMostFields));
+                                     std::to_string(kMaxFields));
             PILEUS_TRY(field_of(walk));
         }
         if (fields_.list.empty())
@@ -89,8 +89,8 @@ private:
         const bool known = grid.first_lon > -1e3 && grid.first_lon < 1e3 && grid.last_lon > -1e3 &&
                            grid.last_lon < 1e3 && grid.first_lat > -91 && grid.first_lat < 91 &&
                            grid.last_lat > -91 && grid.last_lat < 91;
-        constexpr long kMost = 1 << 20;
-        if (!known || grid.nx < 1 || grid.ny < 1 || grid.nx > kMost || grid.ny > kMost)
+        constexpr long kMax = 1 << 20;
+        if (!known || grid.nx < 1 || grid.ny < 1 || grid.nx > kMax || grid.ny > kMax)
             return fault(where + "grid of no sizes or places");
         if (grid.last_lon < grid.first_lon) grid.last_lon += 360;
         return Status::ok();
@@ -129,7 +129,7 @@ private:
         PILEUS_TRY(check_reading(name_, count_ * sizeof(float) + cells * kBytesUnpacking));
         if (m.size("values") != cells) return fault(where + "values: not as many as the grid's");
         count_ += cells;
-        if (count_ > kMostValues)
+        if (count_ > kMaxValues)
             return Status::limit(name_ + ": GRIB: too many values, allowed: at most 2^31");
         GribField field;
         field.variable = name;

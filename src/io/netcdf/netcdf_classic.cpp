@@ -10,7 +10,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostNumbers = 65536;  // of one attribute; of more none is kept
+constexpr std::uint64_t kMaxNumbers = 65536;  // of one attribute; of more none is kept
 constexpr std::uint32_t kDimensionList = 10, kVariableList = 11, kAttributeList = 12;
 
 /// Walks through big-endian numbers; every step is checked against the end.
@@ -134,7 +134,7 @@ private:
                 a.text.assign(reinterpret_cast<const char*>(from), std::size_t(values));
                 while (!a.text.empty() && a.text.back() == '\0') a.text.pop_back();
             } else {
-                a.numbers.resize(values <= kMostNumbers ? std::size_t(values) : 0);
+                a.numbers.resize(values <= kMaxNumbers ? std::size_t(values) : 0);
                 nc_values(kind, from, {a.numbers.data(), a.numbers.size()});
             }
             to.push_back(std::move(a));

@@ -13,7 +13,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostHead = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxHead = std::uint64_t{1} << 24;
 constexpr std::size_t kPiece = 65536;  // bytes that pass through at once
 
 template <class List>
@@ -117,7 +117,7 @@ Status NcFile::take(std::uint64_t at, std::uint64_t count, const char* what,
 Status NcFile::open_head(std::uint64_t size) {
     size_ = size;
     Buffer<char> start;
-    PILEUS_TRY(start.resize(size < kMostHead ? size : kMostHead, "head of a NetCDF file"));
+    PILEUS_TRY(start.resize(size < kMaxHead ? size : kMaxHead, "head of a NetCDF file"));
     PILEUS_TRY(take(0, start.size(), "head", reinterpret_cast<unsigned char*>(start.data())));
     static const char kHdf5[] = "\x89HDF\r\n\x1a\n";
     if (start.size() >= 8 && std::memcmp(start.data(), kHdf5, 8) == 0) {

@@ -134,14 +134,14 @@ private:
     }
 
     void mark(double number) {
-        constexpr double kMostFloat = 3.4028234663852886e38;
+        constexpr double kMaxFloat = 3.4028234663852886e38;
         if (number != number) {
             to_.nan_is_missing_ = true;
             return;
         }
         // A mark that is written as a double stands for the float nearest to it.
         const bool rounds =
-            v_.type == NcType::kFloat && number >= -kMostFloat && number <= kMostFloat;
+            v_.type == NcType::kFloat && number >= -kMaxFloat && number <= kMaxFloat;
         to_.missing_.push_back(to_.with_sign(rounds ? double(float(number)) : number));
     }
 

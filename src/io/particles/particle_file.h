@@ -14,7 +14,7 @@
 namespace pileus {
 
 /// Coordinates and radii stay within this, either way.
-constexpr double kMostParticlePlace = 1e12;
+constexpr double kMaxParticlePlace = 1e12;
 
 /// What a scene says beside the file.
 struct ParticleReading {

@@ -20,20 +20,20 @@ struct RoleRow {
     bool above;  ///< the least itself is out of range
 };
 
-constexpr double kMostId = 0x1p53;
+constexpr double kMaxId = 0x1p53;
 constexpr RoleRow kRoleRows[] = {
-    {"|x|px|position_x|", -kMostParticlePlace, kMostParticlePlace, false},
-    {"|y|py|position_y|", -kMostParticlePlace, kMostParticlePlace, false},
-    {"|z|pz|position_z|", -kMostParticlePlace, kMostParticlePlace, false},
-    {"|radius|pscale|", 0, kMostParticlePlace, true},
+    {"|x|px|position_x|", -kMaxParticlePlace, kMaxParticlePlace, false},
+    {"|y|py|position_y|", -kMaxParticlePlace, kMaxParticlePlace, false},
+    {"|z|pz|position_z|", -kMaxParticlePlace, kMaxParticlePlace, false},
+    {"|radius|pscale|", 0, kMaxParticlePlace, true},
     {"|density|extinction|", 0, 1e12, false},
     {"|red|r|color_r|colour_r|", 0, 1, false},
     {"|green|g|color_g|colour_g|", 0, 1, false},
     {"|blue|b|color_b|colour_b|", 0, 1, false},
-    {"|id|", 0, kMostId, false},
-    {"|vx|velocity_x|", -kMostParticlePlace, kMostParticlePlace, false},
-    {"|vy|velocity_y|", -kMostParticlePlace, kMostParticlePlace, false},
-    {"|vz|velocity_z|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|id|", 0, kMaxId, false},
+    {"|vx|velocity_x|", -kMaxParticlePlace, kMaxParticlePlace, false},
+    {"|vy|velocity_y|", -kMaxParticlePlace, kMaxParticlePlace, false},
+    {"|vz|velocity_z|", -kMaxParticlePlace, kMaxParticlePlace, false},
     {"|emission_red|emission_r|", 0, 1e9, false},
     {"|emission_green|emission_g|", 0, 1e9, false},
     {"|emission_blue|emission_b|", 0, 1e9, false},
@@ -118,7 +118,7 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
     if (glows == 3) PILEUS_TRY(set_.emission.resize(3 * count, "particles"));
     if (speeds == 3) PILEUS_TRY(set_.velocity.resize(3 * count, "particles"));
     if (columns_[kId].at >= 0) PILEUS_TRY(set_.id.resize(count, "particles"));
-    for (int a = 0; a < 3; ++a) set_.low[a] = 4 * kMostParticlePlace, set_.high[a] = -set_.low[a];
+    for (int a = 0; a < 3; ++a) set_.low[a] = 4 * kMaxParticlePlace, set_.high[a] = -set_.low[a];
     return Status::ok();
 }
 
@@ -197,11 +197,11 @@ const AttributeRow* attribute_row(std::string name) {
 }  // namespace
 
 std::string ParticleAttributes::add(const std::string& name, std::uint64_t size) {
-    if (++attributes_ > kMostAttributes)
-        return "attributes: too many, allowed: at most " + std::to_string(kMostAttributes);
-    if (size > kMostAttributeNumbers - numbers())
+    if (++attributes_ > kMaxAttributes)
+        return "attributes: too many, allowed: at most " + std::to_string(kMaxAttributes);
+    if (size > kMaxAttributeNumbers - numbers())
         return "attribute " + name + ": too long, " + std::to_string(size) + ", allowed: at most " +
-               std::to_string(kMostAttributeNumbers) + " numbers for a particle";
+               std::to_string(kMaxAttributeNumbers) + " numbers for a particle";
     const AttributeRow* row = attribute_row(name);
     const std::uint64_t wanted = row == nullptr ? size : row->columns[1] != nullptr ? 3 : 1;
     if (size != wanted)

@@ -75,8 +75,8 @@ private:
 
 // What readers of other programs' attributes share: names, limits, numbers in bytes.
 
-constexpr std::uint64_t kMostAttributes = 256;         ///< of a particle
-constexpr std::uint64_t kMostAttributeNumbers = 1024;  ///< of all of a particle's together
+constexpr std::uint64_t kMaxAttributes = 256;         ///< of a particle
+constexpr std::uint64_t kMaxAttributeNumbers = 1024;  ///< of all of a particle's together
 
 /// Columns of a particle's numbers in their order; those that mean nothing here have no name.
 class ParticleAttributes {

@@ -8,7 +8,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::size_t kMostColumns = 256;
+constexpr std::size_t kMaxColumns = 256;
 
 class Reader : private TextScan {
 public:
@@ -35,8 +35,8 @@ Status Reader::head(TextRange& rest, std::vector<ParticleColumn>& columns) const
         while (at < line.end && !between(text_[at])) ++at;
         std::size_t end = at;
         if (end > begin + 1 && text_[begin] == '"' && text_[end - 1] == '"') ++begin, --end;
-        if (columns.size() == kMostColumns)
-            return fault(begin, "too many columns, allowed: up to " + std::to_string(kMostColumns));
+        if (columns.size() == kMaxColumns)
+            return fault(begin, "too many columns, allowed: up to " + std::to_string(kMaxColumns));
         if (end > begin) columns.push_back({std::string(text_.data + begin, end - begin), false});
     }
     return Status::ok();

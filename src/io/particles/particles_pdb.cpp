@@ -145,9 +145,9 @@ private:
         for (;;) {
             PILEUS_TRY(word(next));
             if (next == "TYPES") break;
-            if (names.size() == kMostAttributes)
+            if (names.size() == kMaxAttributes)
                 return fault(rest_.at, "attributes: too many, allowed: at most " +
-                                           std::to_string(kMostAttributes));
+                                           std::to_string(kMaxAttributes));
             names.push_back(next);
         }
         for (const std::string& name : names) {

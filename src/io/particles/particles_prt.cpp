@@ -14,10 +14,10 @@ namespace {
 
 constexpr unsigned char kMagic[8] = {192, 'P', 'R', 'T', '\r', '\n', 26, '\n'};
 constexpr std::uint32_t kHeadBytes = 56, kChannelBytes = 44;
-constexpr std::uint32_t kMostChannels = 256, kMostStride = 4096;
+constexpr std::uint32_t kMaxPrtChannels = 256, kMaxStride = 4096;
 /// zlib makes at most so many bytes of one.
-constexpr std::uint64_t kMostRatio = 1032;
-constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 34;
+constexpr std::uint64_t kMaxRatio = 1032;
+constexpr std::uint64_t kMaxUnpacked = std::uint64_t{1} << 34;
 
 /// Bytes of a number by its type, and whether it is a float, or a whole number with a sign.
 struct PrtType {
@@ -72,7 +72,7 @@ public:
     Status read(const ParticleReading& reading, ParticleSet& set) {
         PILEUS_TRY(head());
         PILEUS_TRY(channels());
-        if (count_ > kMostUnpacked / stride_ || count_ * stride_ / kMostRatio > in_.left())
+        if (count_ > kMaxUnpacked / stride_ || count_ * stride_ / kMaxRatio > in_.left())
             return in_.fault("particles: more than the file can hold, " + std::to_string(count_) +
                              " of " + std::to_string(stride_) + " bytes");
         ParticleRows rows(file_, set);
@@ -121,7 +121,7 @@ private:
         std::uint32_t number = 0, bytes = 0;
         PILEUS_TRY(in_.u32("channels", number));
         PILEUS_TRY(in_.u32("length of a channel", bytes));
-        if (number < 1 || number > kMostChannels || bytes < kChannelBytes || bytes > kMostStride)
+        if (number < 1 || number > kMaxPrtChannels || bytes < kChannelBytes || bytes > kMaxStride)
             return in_.fault("channels: out of range, " + std::to_string(number) + " of " +
                              std::to_string(bytes) + " bytes, allowed: 1 to 256 of 44 to 4096");
         for (std::uint32_t i = 0; i < number; ++i) {
@@ -143,8 +143,8 @@ private:
             return in_.fault("channel " + name + ": no such type, " + std::to_string(type) +
                              ", allowed: 0 to 10");
         const unsigned bytes = kTypes[type].bytes;
-        if (arity < 1 || arity > kMostStride || offset > kMostStride ||
-            offset + arity * bytes > kMostStride)
+        if (arity < 1 || arity > kMaxStride || offset > kMaxStride ||
+            offset + arity * bytes > kMaxStride)
             return in_.fault("channel " + name + ": too long, " + std::to_string(arity) + " at " +
                              std::to_string(offset) + ", allowed: within 4096 bytes");
         if (offset + arity * bytes > stride_) stride_ = offset + arity * bytes;

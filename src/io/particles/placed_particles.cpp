@@ -112,7 +112,7 @@ Status replicate_particles(const std::string& name, const ParticleSettings& s, P
     return Status::ok();
 }
 
-constexpr double kMostOfParticle = 1e12;
+constexpr double kMaxOfParticle = 1e12;
 
 void move(ParticleSet& set, std::size_t from, std::size_t to) {
     for (std::size_t a = 0; a < 3; ++a) set.position[3 * to + a] = set.position[3 * from + a];
@@ -169,8 +169,8 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         double density = double(set.density[i]) / s.share;
         if (s.cross_section) density /= kBallMass * radius * radius * radius;
         if (!(float(radius * smallest) >= float(kLeastPositive)) ||
-            !(radius <= kMostParticlePlace) || !(density <= kMostOfParticle) ||
-            !(density * denser <= kMostSigma))
+            !(radius <= kMaxParticlePlace) || !(density <= kMaxOfParticle) ||
+            !(density * denser <= kMaxSigma))
             return Status::bad_input(
                 name + ": particle " + std::to_string(i) + ": radius or extinction out of range, " +
                 number_text(radius * smallest) + " m and " + number_text(density * denser) +
@@ -182,7 +182,7 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         set.origin[a] *= s.unit_m;
         set.low[a] = set.low[a] * s.unit_m - largest;
         set.high[a] = set.high[a] * s.unit_m + largest;
-        if (!(set.low[a] >= -kMostParticlePlace && set.high[a] <= kMostParticlePlace))
+        if (!(set.low[a] >= -kMaxParticlePlace && set.high[a] <= kMaxParticlePlace))
             return Status::bad_input(
                 name + ": particles: too far out, " + std::to_string(set.low[a]) + " to " +
                 std::to_string(set.high[a]) + " m, allowed: within -1e12 to 1e12 m");
@@ -254,7 +254,7 @@ Status read_placed_particles(const MediumSettings& medium, const std::string& pa
         return place_particles("particles", s, set);
     }
     const std::string extension =
-        medium.format.empty() ? packed_extension(path) : '.' + medium.format;
+        medium.source.format.empty() ? packed_extension(path) : '.' + medium.source.format;
     PILEUS_TRY(read_particles(path, extension, reading, set));
     return place_particles(path, s, set);
 }

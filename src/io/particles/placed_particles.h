@@ -5,6 +5,7 @@
 #pragma once
 #include <string>
 
+#include "src/base/angles.h"
 #include "src/io/particles/particle_file.h"
 #include "src/scene/media/host_media.h"
 #include "src/scene/scene.h"
@@ -12,7 +13,7 @@
 namespace pileus {
 
 /// Integral of (1 - r^2)^2 over the ball of radius 1.
-constexpr double kBallMass = 32.0 * 3.14159265358979323846 / 105.0;
+constexpr double kBallMass = 32.0 * kPi64 / 105.0;
 
 /// Reads medium.density, or a host's. In `set` lengths are metres along the file's own axes, and
 /// `density`, which is never empty, is each particle's extinction at its centre, 1/m: at distance r

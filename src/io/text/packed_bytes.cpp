@@ -142,13 +142,13 @@ public:
 
 private:
     GzipEnd member(unsigned char* to, std::uint64_t room) {
-        constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 30;
+        constexpr std::uint64_t kMaxAtOnce = std::uint64_t{1} << 30;
         for (int state = Z_OK; state != Z_STREAM_END;) {
             // The end of a member may still have to be read where there is no more room.
             unsigned char passed[1 << 14];
-            const std::uint64_t in = std::min<std::uint64_t>(packed_.size - taken, kMostAtOnce);
+            const std::uint64_t in = std::min<std::uint64_t>(packed_.size - taken, kMaxAtOnce);
             const bool pass = to == nullptr || bytes == room;
-            const std::uint64_t out = pass ? sizeof passed : std::min(room - bytes, kMostAtOnce);
+            const std::uint64_t out = pass ? sizeof passed : std::min(room - bytes, kMaxAtOnce);
             stream_.next_in =
                 reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data + taken));  // only read
             stream_.avail_in = uInt(in);

@@ -10,8 +10,8 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 24;
-constexpr double kMostValue = 1e30;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24;
+constexpr double kMaxValue = 1e30;
 
 class Reader : private TextScan {
 public:
@@ -67,7 +67,7 @@ Status Reader::node(TextRange line, std::uint64_t index, bool last, PhaseNodes& 
         return fault(line.at, "value: missing, nothing, allowed: `angle value` on each line");
     const std::size_t at = line.at;
     PILEUS_TRY(number(line, "value", value));
-    if (!(value >= 0 && value <= kMostValue))
+    if (!(value >= 0 && value <= kMaxValue))
         return fault(
             at, "value: out of range, " + token(at, line.end) + ", allowed: number in [0, 1e+30]");
     PILEUS_TRY(end_of(line, "`angle value` on each line"));
@@ -78,7 +78,7 @@ Status Reader::node(TextRange line, std::uint64_t index, bool last, PhaseNodes& 
 
 Status Reader::table(PhaseNodes& nodes) {
     std::uint64_t lines = 0;
-    PILEUS_TRY(count_lines("phase table", 2, kMostPhaseNodes, lines));
+    PILEUS_TRY(count_lines("phase table", 2, kMaxPhaseNodes, lines));
     PILEUS_TRY(nodes.angle_deg.resize(lines, "phase table"));
     PILEUS_TRY(nodes.value.resize(lines, "phase table"));
     TextRange rest{0, text_.size}, line;
@@ -94,7 +94,7 @@ Status Reader::table(PhaseNodes& nodes) {
 
 Status Reader::moments(Buffer<double>& list) {
     std::uint64_t lines = 0;
-    PILEUS_TRY(count_lines("moments", 1, kMostPhaseMoments, lines));
+    PILEUS_TRY(count_lines("moments", 1, kMaxPhaseMoments, lines));
     PILEUS_TRY(list.resize(lines, "phase moments"));
     TextRange rest{0, text_.size}, line;
     for (std::uint64_t i = 0; next_line(rest, line); ++i) {
@@ -124,13 +124,13 @@ Status decode_phase_moments(const std::string& name, Span<const char> text,
 
 Status read_phase_table(const std::string& path, PhaseNodes& nodes) {
     Buffer<char> text;
-    PILEUS_TRY(read_whole_file(path, kMostBytes, text));
+    PILEUS_TRY(read_whole_file(path, kMaxBytes, text));
     return decode_phase_table(path, text.span(), nodes);
 }
 
 Status read_phase_moments(const std::string& path, Buffer<double>& moments) {
     Buffer<char> text;
-    PILEUS_TRY(read_whole_file(path, kMostBytes, text));
+    PILEUS_TRY(read_whole_file(path, kMaxBytes, text));
     return decode_phase_moments(path, text.span(), moments);
 }
 

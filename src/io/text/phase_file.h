@@ -10,8 +10,8 @@
 
 namespace pileus {
 
-constexpr std::uint64_t kMostPhaseNodes = 65536;
-constexpr std::uint64_t kMostPhaseMoments = 4096;
+constexpr std::uint64_t kMaxPhaseNodes = 65536;
+constexpr std::uint64_t kMaxPhaseMoments = 4096;
 
 /// Of a phase function: angles ascend from exactly 0 to exactly 180 degrees, values are finite and
 /// not negative, one at least is above 0; in any unit.
@@ -19,7 +19,7 @@ struct PhaseNodes {
     Buffer<double> angle_deg, value;
 };
 
-/// Lines `angle value`, 2 to kMostPhaseNodes of them. kBadInput with file:line:column; kLimit: too
+/// Lines `angle value`, 2 to kMaxPhaseNodes of them. kBadInput with file:line:column; kLimit: too
 /// long a text, or out of memory.
 Status read_phase_table(const std::string& path, PhaseNodes& nodes);
 
@@ -27,7 +27,7 @@ Status read_phase_table(const std::string& path, PhaseNodes& nodes);
 Status decode_phase_table(const std::string& name, Span<const char> text, PhaseNodes& nodes);
 
 /// Lines of one number each: Legendre moments from degree 0, whose moment is 1, each in [-1, 1];
-/// 1 to kMostPhaseMoments of them. Faults as read_phase_table's.
+/// 1 to kMaxPhaseMoments of them. Faults as read_phase_table's.
 Status read_phase_moments(const std::string& path, Buffer<double>& moments);
 
 /// The same from memory.

@@ -16,7 +16,7 @@ constexpr TypeName kTypes[] = {
     {"int", "int32", 4}, {"uint", "uint32", 4}, {"float", "float32", 4}, {"double", "float64", 8}};
 
 /// Files have two or three kinds of elements, with a name each.
-constexpr std::size_t kMostElements = 256;
+constexpr std::size_t kMaxElements = 256;
 
 }  // namespace
 
@@ -55,9 +55,9 @@ Status PlyFile::element(TextRange line) {
     for (const PlyElement& other : elements_)
         if (other.name == e.name)
             return fault(key, "element " + e.name + ": given twice, allowed: once");
-    if (elements_.size() == kMostElements)
+    if (elements_.size() == kMaxElements)
         return fault(key, "element " + e.name + ": too many elements, allowed: up to " +
-                              std::to_string(kMostElements));
+                              std::to_string(kMaxElements));
     skip(line);
     std::int64_t count = 0;
     const std::size_t begin = line.at;

@@ -11,9 +11,9 @@
 namespace pileus {
 namespace {
 
-constexpr std::size_t kMostName = 64;
+constexpr std::size_t kMaxName = 64;
 constexpr double kFarthest = 1e9;  // m
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 31;
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 31;
 
 class Reader {
 public:
@@ -129,12 +129,12 @@ Status Reader::one(const Node& table, Sensor& sensor) const {
     PILEUS_TRY(keys(table));
     PILEUS_TRY(place(table, sensor));
     if (const Node* n = table.find("samples"); n != nullptr) {
-        if (n->kind != NodeKind::kInteger || n->integer < 64 || n->integer > kMostSamples)
+        if (n->kind != NodeKind::kInteger || n->integer < 64 || n->integer > kMaxSamples)
             return value_fault(*n, "whole number in [64, 2147483648]");
         sensor.samples = std::uint64_t(n->integer);
     }
     if (const Node* n = table.find("name"); n != nullptr) {
-        bool printable = n->is_text() && !n->text.empty() && n->text.size() <= kMostName;
+        bool printable = n->is_text() && !n->text.empty() && n->text.size() <= kMaxName;
         for (std::size_t i = 0; printable && i < n->text.size(); ++i)
             printable = n->text[i] >= ' ' && n->text[i] <= '~';
         if (!printable) return value_fault(*n, "1 to 64 printable ASCII characters");
@@ -151,7 +151,7 @@ Status Reader::all(const Node& root, std::vector<Sensor>& sensors) const {
     const Node* list = root.find("sensor");
     if (list == nullptr || !list->is_array() || list->children.empty())
         return fault({-1, 1, 1}, "sensor: none, allowed: 1 to 4096 tables [[sensor]]");
-    if (list->children.size() > kMostSensors)
+    if (list->children.size() > kMaxSensors)
         return fault(list->key_at, "sensor: too many, " + std::to_string(list->children.size()) +
                                        ", allowed: 1 to 4096");
     for (const Node& table : list->children) {
@@ -171,7 +171,7 @@ Status Reader::all(const Node& root, std::vector<Sensor>& sensors) const {
 Status decode_sensors(const std::string& name, Span<const char> text,
                       std::vector<Sensor>& sensors) {
     sensors.clear();
-    if (text.size > kMostSensorBytes)
+    if (text.size > kMaxSensorBytes)
         return Status::limit(name + ": too long, " + std::to_string(text.size) +
                              " bytes, allowed: at most 1048576");
     Node root;
@@ -185,7 +185,7 @@ Status decode_sensors(const std::string& name, Span<const char> text,
 Status read_sensors(const std::string& path, std::vector<Sensor>& sensors) {
     Buffer<char> bytes;
     PILEUS_TRY(check_file_name(path));
-    PILEUS_TRY(read_whole_file(path, kMostSensorBytes, bytes));
+    PILEUS_TRY(read_whole_file(path, kMaxSensorBytes, bytes));
     return decode_sensors(path, bytes.span(), sensors);
 }
 

@@ -12,8 +12,8 @@
 
 namespace pileus {
 
-constexpr std::uint64_t kMostSensors = 4096;
-constexpr std::uint64_t kMostSensorBytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxSensors = 4096;
+constexpr std::uint64_t kMaxSensorBytes = std::uint64_t{1} << 20;
 
 enum class SensorKind {
     kLook,   ///< radiance at a place along a direction

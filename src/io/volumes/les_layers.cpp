@@ -36,12 +36,12 @@ bool is_even(const std::vector<double>& levels, const Ladder& ladder) {
 
 /// How many layers of the thinnest one's height fill the stack, rounded up but for rounding errors.
 int count_layers(const std::vector<double>& faces) {
-    constexpr double kSlack = 1e-6, kMost = 1 << 30;
+    constexpr double kSlack = 1e-6, kMax = 1 << 30;
     double thinnest = faces[1] - faces[0];
     for (std::size_t i = 1; i + 1 < faces.size(); ++i)
         if (faces[i + 1] - faces[i] < thinnest) thinnest = faces[i + 1] - faces[i];
     const double count = (faces.back() - faces.front()) / thinnest - kSlack;
-    if (!(count < kMost)) return 1 << 30;
+    if (!(count < kMax)) return 1 << 30;
     const int whole = int(count);
     return double(whole) < count ? whole + 1 : whole;
 }

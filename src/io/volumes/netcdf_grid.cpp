@@ -23,19 +23,19 @@ constexpr AxisKind kOrder[3] = {AxisKind::kLevel, AxisKind::kY, AxisKind::kX};
 /// The first key of weather data that the scene gives, for which a grid has no use.
 const char* useless_key(const MediumSettings& medium) {
     const WeatherSettings &w = medium.weather, usual;
-    if (medium.resolution[0] > 0) return "resolution";
+    if (medium.box.resolution[0] > 0) return "resolution";
     if (w.time != usual.time) return "time";
     if (w.member != usual.member) return "member";
-    if (!w.axes.empty()) return "axes";
-    if (!w.units.empty()) return "units";
+    if (!w.names.axes.empty()) return "axes";
+    if (!w.names.units.empty()) return "units";
     if (w.in_cloud) return "fraction";
-    if (w.liquid_radius_um > 0) return "liquid_radius_um";
-    if (w.ice_radius_um > 0) return "ice_radius_um";
-    if (w.ice_dge_um > 0) return "ice_dge_um";
-    if (w.plain_degrees) return "geometry";
-    if (w.origin_deg != usual.origin_deg) return "origin_deg";
-    if (w.width_m > 0) return "width_m";
-    return w.vertical_scale != usual.vertical_scale ? "vertical_scale" : nullptr;
+    if (w.sizes.liquid_radius_um > 0) return "liquid_radius_um";
+    if (w.sizes.ice_radius_um > 0) return "ice_radius_um";
+    if (w.sizes.ice_dge_um > 0) return "ice_dge_um";
+    if (w.place.plain_degrees) return "geometry";
+    if (w.place.origin_deg != usual.place.origin_deg) return "origin_deg";
+    if (w.place.width_m > 0) return "width_m";
+    return w.place.vertical_scale != usual.place.vertical_scale ? "vertical_scale" : nullptr;
 }
 
 bool is_extinction(const NcVariable& v) { return v.name == "extinction"; }
@@ -95,7 +95,8 @@ Status box_of(const NcFile& file, const NcVariable& grid, std::size_t k, double&
 }  // namespace
 
 const NcVariable* netcdf_grid(const NcHead& head, const WeatherSettings& settings) {
-    if (!settings.liquid.empty() || !settings.ice.empty() || !settings.variable.empty())
+    if (!settings.names.liquid.empty() || !settings.names.ice.empty() ||
+        !settings.names.variable.empty())
         return nullptr;
     for (const char* name : {"extinction", "density"}) {
         const NcVariable* v = head.find(name);

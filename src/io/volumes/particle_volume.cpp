@@ -15,7 +15,7 @@ namespace {
 constexpr int kShadowCells = 96;
 /// Samples along each axis of a cell are at most a quarter of a radius apart. Where that would be
 /// more than two, places across the particle take theirs: so many, or half a cell apart.
-constexpr int kMostSamples = 2, kMostAcross = 6;
+constexpr int kMaxSamples = 2, kMaxAcross = 6;
 /// Pieces of the grid for each thread.
 constexpr int kSlabs = 4;
 /// Of all particles, in quanta: nothing overflows.
@@ -34,7 +34,7 @@ struct BallPlaces {
     struct Place {
         double at[3], weight;
     };
-    Place place[kMostAcross * kMostAcross * kMostAcross];
+    Place place[kMaxAcross * kMaxAcross * kMaxAcross];
     int count = 0;
     double weights = 0;
 
@@ -59,7 +59,7 @@ public:
         : size_(size), low_(low) {
         for (int a = 0; a < 3; ++a) cell_[a] = cell[a];
         least_ = std::min(cell[0], std::min(cell[1], cell[2]));
-        for (int n = 0; n < kMostAcross; ++n) places_[n].lay(n + 1);
+        for (int n = 0; n < kMaxAcross; ++n) places_[n].lay(n + 1);
     }
 
     /// Looks at a particle; false: it touches no cell of layers [begin, end) along z.
@@ -73,8 +73,8 @@ public:
             last_[a] = cell_at(at + reach, a);
             if (a == 2 && (last_[2] < begin || first_[2] >= end)) return false;
             const double samples = 4 * cell_[a] / radius_;
-            small_ = small_ || samples > kMostSamples;
-            samples_[a] = samples > 1 ? kMostSamples : 1;
+            small_ = small_ || samples > kMaxSamples;
+            samples_[a] = samples > 1 ? kMaxSamples : 1;
         }
         return true;
     }
@@ -122,7 +122,7 @@ private:
     }
     const BallPlaces& ball() const {
         const double wanted = 4 * radius_ / least_;
-        return places_[wanted < kMostAcross - 1 ? int(wanted) : kMostAcross - 1];
+        return places_[wanted < kMaxAcross - 1 ? int(wanted) : kMaxAcross - 1];
     }
     int cell_at(double place, int axis) const {
         const int most = size_[std::size_t(axis)] - 1;
@@ -152,7 +152,7 @@ private:
     double cell_[3], least_ = 0, centre_[3] = {}, radius_ = 0;
     int first_[3] = {}, last_[3] = {}, samples_[3] = {};
     bool small_ = false;
-    BallPlaces places_[kMostAcross];
+    BallPlaces places_[kMaxAcross];
 };
 
 /// Whole numbers alone have sums without an order.
@@ -167,7 +167,7 @@ double mean_radius(const ParticleSet& set) {
 
 std::array<int, 3> cells_of(const MediumSettings& medium, const MediumValues& given,
                             const ParticleSet& set) {
-    if (medium.resolution[0] > 0) return medium.resolution;
+    if (medium.box.resolution[0] > 0) return medium.box.resolution;
     return given.shadows_only ? particle_cells(set, kShadowCells) : particle_cells(set);
 }
 

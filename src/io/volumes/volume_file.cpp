@@ -5,6 +5,7 @@
 #include "src/io/volumes/volume_file.h"
 
 #include "src/base/file.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/scene/rows/volume_format.h"
 
 namespace pileus {
@@ -60,22 +61,36 @@ namespace {
 /// The row by the medium's word or else the path's extension; kBadInput if unknown.
 Status find_format(const MediumSettings& medium, const std::string& path,
                    const VolumeFormat*& format) {
-    format = medium.format.empty() ? volume_format_of(path) : volume_format_named(medium.format);
+    format = medium.source.format.empty() ? volume_format_of(path)
+                                          : volume_format_named(medium.source.format);
     if (format != nullptr) return Status::ok();
-    const std::string word = medium.format.empty() ? file_extension(path) : medium.format;
+    const std::string word =
+        medium.source.format.empty() ? file_extension(path) : medium.source.format;
     return Status::bad_input(path + ": format: unknown, \"" + word +
                              "\", allowed: " + volume_format_names());
 }
 
 }  // namespace
 
-Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume,
+                   WeatherFiles* files) {
+    if (files != nullptr && is_weather_format(medium.source.format)) {
+        const NcFile* file = nullptr;
+        PILEUS_TRY(files->open(path, file));
+        return weather_volume(medium, *file, volume);
+    }
     const VolumeFormat* format = nullptr;
     PILEUS_TRY(find_format(medium, path, format));
     return format->read(medium, path, volume);
 }
 
-Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
+Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head,
+                        WeatherFiles* files) {
+    if (files != nullptr && is_weather_format(medium.source.format)) {
+        const NcFile* file = nullptr;
+        PILEUS_TRY(files->open(path, file));
+        return weather_head(medium, *file, head);
+    }
     const VolumeFormat* format = nullptr;
     PILEUS_TRY(find_format(medium, path, format));
     return format->read_head(medium, path, head);

@@ -15,7 +15,9 @@
 
 namespace pileus {
 
-constexpr int kMaxVolumeSide = int(range_of(&MediumSettings::resolution).high);
+class WeatherFiles;
+
+constexpr int kMaxVolumeSide = int(range_of(&MediumBox::resolution).high);
 constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 
 /// Reads `path` (already resolved) as medium.format says, or by extension (volume_format_of in
@@ -23,11 +25,13 @@ constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 /// with permute_y_up and lets a box given in the scene win. Bad settings or contents: kBadInput;
 /// more cells or memory than allowed: kLimit; failed half way: kIo. `volume` is unspecified after a
 /// fault.
-Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume,
+                   WeatherFiles* files = nullptr);
 
 /// What read_volume would give, before its values: size, place and kind. Reads little more than
 /// the head of the file; faults of the head as read_volume's, those of the values are not met.
-Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
+Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head,
+                        WeatherFiles* files = nullptr);
 
 /// The text form `Volume "volumegrid" "integer nx" N ... "float density" [...]`. Axes stay in file
 /// order. `point p0` and `point p1` are the outer faces of the box; both or neither must be given.

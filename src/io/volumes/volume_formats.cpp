@@ -24,21 +24,22 @@ Status head_of_path(const MediumSettings&, const std::string& path, VolumeHead& 
 /// Readers that choose a grid by its name.
 template <Status (*kRead)(const std::string&, const std::string&, Volume&)>
 Status read_grid(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    return kRead(path, medium.grid, volume);
+    return kRead(path, medium.source.grid, volume);
 }
 template <Status (*kRead)(const std::string&, const std::string&, VolumeHead&)>
 Status head_of_grid(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    return kRead(path, medium.grid, head);
+    return kRead(path, medium.source.grid, head);
 }
 
 Status read_raw(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian, volume);
+    return read_raw_volume(path, medium.source.raw_type, medium.source.raw_size,
+                           medium.source.raw_big_endian, volume);
 }
 Status raw_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    return read_raw_head(path, medium.raw_type, medium.raw_size, head);
+    return read_raw_head(path, medium.source.raw_type, medium.source.raw_size, head);
 }
 Status write_raw(const MediumSettings& medium, const std::string& path, const Volume& volume) {
-    return write_raw_volume(path, medium.raw_type, medium.raw_big_endian, volume);
+    return write_raw_volume(path, medium.source.raw_type, medium.source.raw_big_endian, volume);
 }
 Status write_vdb(const MediumSettings&, const std::string& path, const Volume& volume) {
     return write_vdb_volume(path, volume);

@@ -8,88 +8,83 @@
 
 namespace pileus {
 
-Status WeatherFile::find(const std::string& path) {
-    if (path != path_) map_.reset();
-    if (file_ != nullptr && path == path_) return Status::ok();
-    path_ = path;
-    opened_ = false;
-    file_ = std::make_unique<NcFile>();
-    const Status found = file_->find(path);
-    if (!found) file_.reset();
+Status WeatherFiles::find(const std::string& path, Kept*& kept) {
+    kept = &files_[path];
+    if (kept->file != nullptr) return Status::ok();
+    kept->opened = false;
+    kept->file = std::make_unique<NcFile>();
+    const Status found = kept->file->find(path);
+    if (!found) kept->file.reset();
     return found;
 }
 
-Status WeatherFile::size(const std::string& path, std::uint64_t& bytes) {
-    PILEUS_TRY(find(path));
-    bytes = file_->file_bytes();
+Status WeatherFiles::size(const std::string& path, std::uint64_t& bytes) {
+    Kept* kept = nullptr;
+    PILEUS_TRY(find(path, kept));
+    bytes = kept->file->file_bytes();
     return Status::ok();
 }
 
-Status WeatherFile::open(const std::string& path, const NcFile*& file) {
-    PILEUS_TRY(find(path));
-    if (!opened_) {
-        const Status opened = file_->open(path);
+Status WeatherFiles::open(const std::string& path, const NcFile*& file) {
+    Kept* kept = nullptr;
+    PILEUS_TRY(find(path, kept));
+    if (!kept->opened) {
+        const Status opened = kept->file->open(path);
         if (!opened) {
-            file_.reset();
+            kept->file.reset();
             return opened;
         }
-        opened_ = true;
+        kept->opened = true;
     }
-    file = file_.get();
+    file = kept->file.get();
     return Status::ok();
 }
 
-Status WeatherFile::map(const WeatherSettings& settings, const std::string& path, WeatherMap& map) {
-    if (map_ == nullptr || path != path_) {
+Status WeatherFiles::map(const WeatherSettings& settings, const std::string& path,
+                         WeatherMap& map) {
+    Kept& kept = files_[path];
+    if (kept.map == nullptr) {
         const NcFile* file = nullptr;
         PILEUS_TRY(open(path, file));
-        map_ = std::make_unique<WeatherMap>();
-        map_status_ = find_map(*file, settings, *map_);
+        kept.map = std::make_unique<WeatherMap>();
+        kept.map_status = find_map(*file, settings, *kept.map);
     }
-    map = *map_;
-    return map_status_;
+    map = *kept.map;
+    return kept.map_status;
 }
 
-void WeatherFile::close() { file_.reset(); }
+void WeatherFiles::close(const std::string& path) { files_[path].file.reset(); }
 
-Status open_weather_file(const MediumSettings& medium, const std::string& path, NcFile& own,
-                         const NcFile*& file) {
-    if (medium.weather_file != nullptr) return medium.weather_file->open(path, file);
-    PILEUS_TRY(own.open(path));
-    file = &own;
-    return Status::ok();
+std::shared_ptr<WeatherFiles> make_weather_files() { return std::make_shared<WeatherFiles>(); }
+
+Status read_weather_map(const MediumSettings& medium, const std::string& path, WeatherMap& map,
+                        WeatherFiles* files) {
+    if (files != nullptr) return files->map(medium.weather, path, map);
+    NcFile file;
+    PILEUS_TRY(file.open(path));
+    return find_map(file, medium.weather, map);
 }
 
 Status density_file_bytes(const MediumSettings& medium, const std::string& path,
-                          std::uint64_t& bytes) {
-    if (medium.weather_file != nullptr) return medium.weather_file->size(path, bytes);
+                          std::uint64_t& bytes, WeatherFiles* files) {
+    if (files != nullptr && is_weather_format(medium.source.format))
+        return files->size(path, bytes);
     InputFile file;
     PILEUS_TRY(open_file(path, file));
     bytes = file.size();
     return Status::ok();
 }
 
-void share_weather_files(Scene& scene) {
-    for (MediumSettings& medium : scene.media) {
-        medium.weather_file.reset();
-        const VolumeFormat* format = volume_format_named(medium.format);
-        if (format == nullptr || !format->is_weather) continue;
-        for (const MediumSettings& other : scene.media)
-            if (other.file == medium.file && other.weather_file != nullptr)
-                medium.weather_file = other.weather_file;
-        if (medium.weather_file == nullptr) medium.weather_file = std::make_shared<WeatherFile>();
-    }
-}
-
-void close_weather_files(const Scene& scene) {
+void close_weather_files(const Scene& scene, WeatherFiles& files) {
     bool mapped = !scene.camera.orthographic;
     for (const MediumSettings& medium : scene.media) {
-        if (medium.weather_file == nullptr) continue;
+        if (!is_weather_format(medium.source.format)) continue;
+        const std::string path = density_path(scene, medium);
         // That of the first one is asked for when the picture is made; whether there is one, too.
         WeatherMap map;
-        if (!mapped) (void)read_weather_map(medium, density_path(scene, medium), map);
+        if (!mapped) (void)files.map(medium.weather, path, map);
         mapped = true;
-        medium.weather_file->close();
+        files.close(path);
     }
 }
 

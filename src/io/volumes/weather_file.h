@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file of weather data that is opened once: for the map, the sizes and the values.
+// Files of weather data that are opened once: for the map, the sizes and the values.
 // in: a path -> out: the opened file; a GRIB file is decoded once.
 // docs/weather.md
 #pragma once
+#include <map>
 #include <memory>
 
 #include "src/io/netcdf/netcdf_file.h"
@@ -39,43 +40,41 @@ struct WeatherMap {
 /// kBadInput: a file that says of no map: a grid in metres, a column without a place.
 Status find_map(const NcFile& file, const WeatherSettings& settings, WeatherMap& map);
 
-/// The map of a file of weather data that a medium names.
-Status read_weather_map(const MediumSettings& medium, const std::string& path, WeatherMap& map);
-
-/// Shared by the copies of a scene in one session, and by its media of one file; for one thread.
-class WeatherFile {
+/// Files of weather data by their paths, which what reads a scene shares; for one thread. Errors:
+/// NcFile's.
+class WeatherFiles {
 public:
-    /// Its length on the disk, before anything of it is read. Errors: NcFile's.
+    /// Length of one on the disk, before anything of it is read.
     Status size(const std::string& path, std::uint64_t& bytes);
-    /// Opens it at the first call, and where the path is another one than before. Errors: NcFile's.
+    /// Opens it at the first call.
     Status open(const std::string& path, const NcFile*& file);
-    /// The map of the file under the settings of the first medium that shows it; read once.
+    /// Its map under the settings of the first medium that shows it; read once.
     Status map(const WeatherSettings& settings, const std::string& path, WeatherMap& map);
-    /// All values have been read. Whoever asks again opens it again.
-    void close();
+    /// Its values have been read; the map stays. Who asks again opens it again.
+    void close(const std::string& path);
 
 private:
-    Status find(const std::string& path);
+    struct Kept {
+        std::unique_ptr<NcFile> file;
+        bool opened = false;  ///< its head has been read
+        std::unique_ptr<WeatherMap> map;
+        Status map_status;
+    };
+    Status find(const std::string& path, Kept*& kept);
 
-    std::string path_;
-    std::unique_ptr<NcFile> file_;
-    bool opened_ = false;  ///< its head has been read
-    std::unique_ptr<WeatherMap> map_;
-    Status map_status_;
+    std::map<std::string, Kept> files_;
 };
+/// None is open yet. Null in a flight.
+std::shared_ptr<WeatherFiles> make_weather_files();
 
-/// The opened file of a medium: the scene's, or else `own`.
-Status open_weather_file(const MediumSettings& medium, const std::string& path, NcFile& own,
-                         const NcFile*& file);
-
-/// Length of a medium's file of any kind. Errors: those of opening it.
+/// The map of a medium's file of weather data. `files` null: it is opened for that alone.
+Status read_weather_map(const MediumSettings& medium, const std::string& path, WeatherMap& map,
+                        WeatherFiles* files = nullptr);
+/// Length of a medium's file of any kind, likewise. Errors: those of opening it.
 Status density_file_bytes(const MediumSettings& medium, const std::string& path,
-                          std::uint64_t& bytes);
-
-/// Gives each medium of weather data its file, which media of the same file share; none is opened.
-void share_weather_files(Scene& scene);
+                          std::uint64_t& bytes, WeatherFiles* files);
 /// After the values of all media have been read; the map stays for cameras whose pictures tell
 /// their place.
-void close_weather_files(const Scene& scene);
+void close_weather_files(const Scene& scene, WeatherFiles& files);
 
 }  // namespace pileus

@@ -139,7 +139,7 @@ public:
         map_.origin[0] = g.origin[0];
         map_.origin[1] = g.origin[1];
         map_.squeeze = g.squeeze;
-        map_.vertical_scale = source_.settings->vertical_scale;
+        map_.vertical_scale = source_.settings->place.vertical_scale;
         PILEUS_TRY(g.in_degrees                             ? degrees()
                    : head_.attribute("MAP_PROJ") != nullptr ? wrf()
                                                             : grid_mapping());
@@ -167,7 +167,7 @@ private:
 
     Status degrees() {
         const Footprints& g = source_.ground;
-        map_.kind = source_.settings->plain_degrees ? MapKind::kPlain : MapKind::kDegrees;
+        map_.kind = source_.settings->place.plain_degrees ? MapKind::kPlain : MapKind::kDegrees;
         map_.by_rows = map_.kind == MapKind::kDegrees && g.nx() > 1;
         map_.y_edges = g.y_edges;
         map_.row_scale = g.row_scale;
@@ -376,13 +376,6 @@ Status find_map(const NcFile& file, const WeatherSettings& settings, WeatherMap&
     WeatherSource source;
     PILEUS_TRY(open_weather(file, settings, source));
     return MapSearch(file, source, map).run();
-}
-
-Status read_weather_map(const MediumSettings& medium, const std::string& path, WeatherMap& map) {
-    if (medium.weather_file != nullptr) return medium.weather_file->map(medium.weather, path, map);
-    NcFile file;
-    PILEUS_TRY(file.open(path));
-    return find_map(file, medium.weather, map);
 }
 
 }  // namespace pileus

@@ -28,15 +28,15 @@ constexpr BiasRow kCamera = {"march, camera cells of 4 voxels", "+0.8 %", "0.001
                              "0.0047"};
 
 const BiasRow& row_of(const CollectorSettings& c) {
-    if (c.camera_closure) return kCamera;
+    if (c.closure.camera) return kCamera;
     if (c.paper) return kPaper;
-    if (c.billboards) return kBillboards;
-    if (c.lobe_closure) return kLobe;
+    if (c.display.billboards) return kBillboards;
+    if (c.closure.lobe) return kLobe;
     if (!c.first_order_split) return kNoSplit;
-    if (c.window) return kWindow;
-    if (c.axis_degrees == 0 && c.bands < 6) return kAlone;
-    if (c.bands < 4) return kTwoBands;
-    return c.bands < 6 ? kMarch : kSixBands;
+    if (c.closure.window) return kWindow;
+    if (c.closure.axis_degrees == 0 && c.closure.bands < 6) return kAlone;
+    if (c.closure.bands < 4) return kTwoBands;
+    return c.closure.bands < 6 ? kMarch : kSixBands;
 }
 
 }  // namespace

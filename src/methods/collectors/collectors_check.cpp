@@ -14,7 +14,7 @@ Status check_collectors(const Scene& scene, const Budget& budget) {
     PILEUS_TRY(check_budget_kinds(scene, budget));
     const CollectorSettings& settings = scene.collectors;
     if (scene.output.layer_order && scene.sun.present && !settings.first_order_split &&
-        !settings.camera_closure)
+        !settings.closure.camera)
         return Status::bad_input(scene.file +
                                  ": output.layers: \"order\": method collectors keeps single "
                                  "scattering apart only with first_order_split, allowed: "
@@ -30,7 +30,7 @@ Status CollectorsMethod::check(const Context&, const FrameView& view) {
         return Status::bad_input(scene.file +
                                  ": collectors.display: \"billboards\" has no marched pixels, "
                                  "allowed: march, or collectors.scale = 1 and temporal = 0");
-    if (settings.camera_closure) {
+    if (settings.closure.camera) {
         if (const char* const mover = mover_of_view(scene))
             return Status::bad_input(scene.file +
                                      ": collectors.closure: \"camera\" needs a fixed "
@@ -38,9 +38,9 @@ Status CollectorsMethod::check(const Context&, const FrameView& view) {
                                      mover + " moves it");
     }
     // Tell before any work that the compositor asked for is not here.
-    if (settings.compositor != Compositor::kBuiltin) {
+    if (settings.display.compositor != Compositor::kBuiltin) {
         GlBlender blender;
-        PILEUS_TRY(open_gl_blender(settings.compositor, blender));
+        PILEUS_TRY(open_gl_blender(settings.display.compositor, blender));
     }
     return Status::ok();
 }

@@ -26,15 +26,16 @@ double most_deposits(const CollectorsState& state) {
 Status plan_deposit(const FrameView& view, CollectorsState& state) {
     const CollectorSettings& c = state.settings;
     DepositPlan& d = state.lights.deposit;
-    d.bands = c.lobe_closure ? 2 : c.bands;
+    d.bands = c.closure.lobe ? 2 : c.closure.bands;
     d.mode = c.paper ? kDepositOutgoing : kDepositIncident;
     if (state.camera_cells > 0) d.mode = kDepositCamera;
     PILEUS_TRY(check_camera_closure("collectors.closure", view, state));
     d.first_order = !splits_first_order(state) ? 0 : (is_marched(state) ? 2 : 1);
     choose_peak(view, c.peak_deg, state);
-    d.axis_degrees = why_no_collectors_axis(view, state) != nullptr
-                         ? 0
-                         : useful_axis_degrees(view.world.medium, c.bands, c.axis_degrees);
+    d.axis_degrees =
+        why_no_collectors_axis(view, state) != nullptr
+            ? 0
+            : useful_axis_degrees(view.world.medium, c.closure.bands, c.closure.axis_degrees);
     choose_axes(view, state);
     d.coefficients = d.mode == kDepositCamera
                          ? 1
@@ -49,12 +50,12 @@ const char* why_no_collectors_axis(const FrameView& view, const CollectorsState&
     const CollectorSettings& c = state.settings;
     if (state.camera_cells > 0) return "closure \"camera\" has all bands";
     if (c.paper) return "variant \"paper\"";
-    if (c.lobe_closure) return "closure \"lobe\"";
+    if (c.closure.lobe) return "closure \"lobe\"";
     if (!has_axes(state.lights.lighting)) return "no sun";
     if (view.world.medium.grid.periodic && shows_harmonics(view, state))
         return "nodes of a periodic medium hold bands alone";
-    if (c.window) return "the window damps the higher bands";
-    return c.axis_degrees == 0 ? "switched off" : nullptr;
+    if (c.closure.window) return "the window damps the higher bands";
+    return c.closure.axis_degrees == 0 ? "switched off" : nullptr;
 }
 
 bool splits_first_order(const CollectorsState& state) {

@@ -53,7 +53,7 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     const StageClock clock(context, "splat");
     SplatOptions options = splat_options(view, state);
     options.beside = beside;
-    options.guided = state.settings.guided_nodes;
+    options.guided = state.settings.display.guided_nodes;
     options.sun_depth = sun_depths_at(state.shadow, nodes);
     // Light that is scattered forward on its way has not faded.
     options.sun_fades = 1 - mean_cosine(view.world.medium);
@@ -257,7 +257,7 @@ Status collectors_billboards(const Context& context, const FrameView& view,
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
     scene.half_depth = view.wants_depth();
-    const Compositor by = state.settings.compositor;
+    const Compositor by = state.settings.display.compositor;
     if (by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
@@ -284,7 +284,7 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
     if (!sizes.picture.marched) return;
     const NodeGrid nodes = source_grid_of(view, state);
     sizes.nodes.source_nodes = source_nodes(nodes);
-    sizes.nodes.guided_nodes = state.settings.guided_nodes ? node_count(nodes) : 0;
+    sizes.nodes.guided_nodes = state.settings.display.guided_nodes ? node_count(nodes) : 0;
     // Without scattered light there is one dark node.
     sizes.nodes.planes_by_channel = sizes.picture.planes;
     sizes.nodes.fine_nodes =

@@ -20,11 +20,11 @@ CollectorsMethod::CollectorsMethod(const MethodInputs& inputs, const CollectorSe
     begin_photons(inputs, state_);
     state_.settings = settings;
     state_.picture.thin = settings.thin;
-    state_.picture.thins = !settings.billboards;
+    state_.picture.thins = !settings.display.billboards;
     state_.shadow.light_refresh = settings.light_refresh;
     const std::int64_t budget = inputs.budget.photons;
     state_.lights.budget_photons = budget >= 0 ? budget : settings.photons;
-    if (settings.camera_closure) state_.camera_cells = settings.cell_voxels;
+    if (settings.closure.camera) state_.camera_cells = settings.closure.cell_voxels;
 }
 
 Status CollectorsMethod::prepare(const Context& context, const FrameView& view) {
@@ -46,7 +46,7 @@ Status CollectorsMethod::prepare(const Context& context, const FrameView& view) 
 
 Status CollectorsMethod::worst_case(const FrameView& view, const FrameWork& work,
                                     FrameUnits& units) const {
-    if (state_.settings.billboards)
+    if (state_.settings.display.billboards)
         return Status::bad_input(
             "units: what billboards take depends on the view, allowed: display = \"march\"");
     return PhotonMethod::worst_case(view, work, units);
@@ -58,7 +58,7 @@ void CollectorsMethod::count(Counts& counts) const {
 }
 
 const char* CollectorsMethod::fixed_view() const {
-    if (!state_.settings.camera_closure) return nullptr;
+    if (!state_.settings.closure.camera) return nullptr;
     return "collectors.closure \"camera\" lights cells towards a fixed one, allowed: another "
            "closure";
 }

@@ -23,7 +23,7 @@ void size_prepared(const FrameView& view, const CollectorsState& state, const Co
         s.prepared.tracking_blocks = state.majorants.tracking.size();
         return;
     }
-    s.prepared.samples = std::uint64_t(settings.samples);
+    s.prepared.samples = std::uint64_t(settings.placement.samples);
     const std::uint64_t most = context.limits[LimitId::kLeaves];
     if (s.prepared.cells)
         s.prepared.leaves = block_total(s.grid, state.camera_cells);
@@ -47,8 +47,8 @@ CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& s
     s.threads = std::uint64_t(context.threads);
     s.media = std::uint64_t(view.world.medium.count);
     s.prepared.cells = state.camera_cells > 0;
-    s.prepared.variance = settings.variance_field;
-    s.prepared.rejection = settings.rejection_sampler;
+    s.prepared.variance = settings.placement.variance_field;
+    s.prepared.rejection = settings.placement.rejection_sampler;
     s.prepared.paper = settings.paper;
     s.photons.channels = std::uint64_t(state.lights.deposit.channels);
     s.photons.coefficients = std::uint64_t(state.lights.deposit.coefficients);

@@ -55,7 +55,7 @@ void CollectorsReport::explain(const Context& context, const FrameView& view, Pl
     plan.need("collectors");
     plan.need("majorants");
     explain_photon_picture(view, state, is_marched(state) ? "marched display" : "billboards", plan);
-    if (!state.settings.billboards) plan.leave_out("billboards", "display = \"march\"");
+    if (!state.settings.display.billboards) plan.leave_out("billboards", "display = \"march\"");
     note_media(view.world.media_plan, plan);
     plan.skip(Stage::kPaths);
     note_collectors_limits(context, view, plan);

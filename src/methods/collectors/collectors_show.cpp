@@ -20,9 +20,9 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     in.camera = camera;
     in.deposit = state.lights.deposit;
     in.closure = state.camera_cells > 0        ? Closure::kCamera
-                 : state.settings.lobe_closure ? Closure::kLobe
+                 : state.settings.closure.lobe ? Closure::kLobe
                                                : Closure::kSh;
-    in.window = state.settings.window;
+    in.window = state.settings.closure.window;
     set_axes(in);
     if (in.closure == Closure::kSh && !in.window) damp_rings(in);
     in.batches = photon_batches(state);

@@ -20,21 +20,23 @@ struct CollectorsState : PhotonState {
 
 /// The display that is used: cells lit towards the camera are always marched.
 inline bool is_marched(const CollectorsState& state) {
-    return !state.settings.billboards || state.camera_cells > 0;
+    return !state.settings.display.billboards || state.camera_cells > 0;
 }
 
 /// Whether the display keeps what each collector scatters into every direction: a perspective view
 /// of a periodic medium shows each from many sides, one from within a medium those around it.
 inline bool shows_harmonics(const FrameView& view, const CollectorsState& state) {
     return is_marched(state) && !view.scene.camera.orthographic &&
-           (view.world.medium.grid.periodic || state.settings.directions == NodeDirections::kAll);
+           (view.world.medium.grid.periodic ||
+            state.settings.display.directions == NodeDirections::kAll);
 }
 
 /// Whether nodes around the camera show each ray what they scatter along it, where it is so near.
 inline bool shows_near(const FrameView& view, const CollectorsState& state) {
     const CollectorSettings& c = state.settings;
     return is_marched(state) && !view.scene.camera.orthographic && !shows_harmonics(view, state) &&
-           state.camera_cells == 0 && !c.lobe_closure && c.directions == NodeDirections::kNear;
+           state.camera_cells == 0 && !c.closure.lobe &&
+           c.display.directions == NodeDirections::kNear;
 }
 
 /// Lights and what a collision stores, for the medium as it is known now. kLimit: sums that could

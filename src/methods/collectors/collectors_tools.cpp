@@ -10,11 +10,11 @@ namespace {
 void collectors_draft(const Scene& scene, std::vector<std::string>& sets) {
     const CollectorSettings& s = scene.collectors;
     sets.push_back(at_most_text("collectors.photons", s.photons, kDraftPhotons));
-    if (!s.billboards && !s.paper) sets.push_back("collectors.node_filter=\"guided\"");
+    if (!s.display.billboards && !s.paper) sets.push_back("collectors.node_filter=\"guided\"");
 }
 
 void collectors_whole(const Scene& scene, std::vector<std::string>& sets) {
-    if (scene.collectors.billboards) return;
+    if (scene.collectors.display.billboards) return;
     sets.push_back("collectors.scale=1");
     sets.push_back("collectors.temporal=0");
 }

@@ -35,7 +35,7 @@ void set_turns(const RaymarchInput& in, RaymarchLight& light) {
     const Vec<float> axis{s[0], s[1], s[2]};
     light.turns = kLightTurns;
     for (int i = 0; i < kLightTurns; ++i) {
-        const SineCosine off = sincos_deg(0.125 * in.settings->cone_deg * (i % 4 + 1));
+        const SineCosine off = sincos_deg(0.125 * in.settings->scattering.cone_deg * (i % 4 + 1));
         const SineCosine around = sincos_deg(kGoldenTurn * i);
         const Vec<float> d = turned(axis, float(off.cosine), float(off.sine), float(around.cosine),
                                     float(around.sine));
@@ -46,15 +46,15 @@ void set_turns(const RaymarchInput& in, RaymarchLight& light) {
 }
 
 void set_jitter(const RaymarchInput& in, StepParams& k) {
-    k.grid_m = float(in.settings->grid_lock_m);
-    k.jitter_share = float(in.settings->jitter_share);
-    k.jitter = std::int32_t(in.settings->jitter);
+    k.grid_m = float(in.settings->march.grid_lock_m);
+    k.jitter_share = float(in.settings->march.jitter_share);
+    k.jitter = std::int32_t(in.settings->march.jitter);
     const Key key = make_key(in.seed, kJitterStream, 0);
     k.key[0] = key.k0;
     k.key[1] = key.k1;
 }
 
-double kept_of(const RaymarchSettings& s, const Optics& optics) {
+double kept_of(const RaymarchScatterSettings& s, const Optics& optics) {
     if (!s.forward) return 0;
     return s.forward_share >= 0 ? s.forward_share : forward_share(optics.phase, 0.5 * s.cone_deg);
 }
@@ -63,16 +63,16 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     const RaymarchSettings& s = *in.settings;
     RaymarchLight& light = k.light;
     light.march = in.march_light ? 1 : 0;
-    if (in.nodes != nullptr) light.nodes = in.nodes->nodes;
-    light.steps = s.light_steps;
-    light.first_m = s.light_steps == 0 ? march_step(*in.medium) : float(s.light_first_step_m);
-    light.growth = float(s.light_growth);
-    light.series = s.light_steps > 0 ? series_of(s.light_growth, s.light_steps) : 1.0f;
-    if (s.light_cone) set_turns(in, light);
-    light.powder = std::int32_t(s.powder);
-    light.powder_strength = float(s.powder_strength);
-    light.forward = s.forward ? 1 : 0;
-    light.channels = keep_forward(s, *in.medium, light.kept);
+    if (in.nodes.sun != nullptr) light.nodes = in.nodes.sun->nodes;
+    light.steps = s.light.steps;
+    light.first_m = s.light.steps == 0 ? march_step(*in.medium) : float(s.light.first_step_m);
+    light.growth = float(s.light.growth);
+    light.series = s.light.steps > 0 ? series_of(s.light.growth, s.light.steps) : 1.0f;
+    if (s.light.cone) set_turns(in, light);
+    light.powder = std::int32_t(s.look.powder);
+    light.powder_strength = float(s.look.powder_strength);
+    light.forward = s.scattering.forward ? 1 : 0;
+    light.channels = keep_forward(s.scattering, *in.medium, light.kept);
 }
 
 void set_media(const RaymarchInput& in, RaymarchParams& k) {
@@ -82,7 +82,7 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
         const Optics& optics = in.medium->optics[std::size_t(i)];
         k.phase[i] = optics.phase;
         const float peak = phase_peak(optics.phase);
-        k.phase_scale[i] = in.settings->peak_phase && peak > 0 ? 1.0f / peak : 1.0f;
+        k.phase_scale[i] = in.settings->look.peak_phase && peak > 0 ? 1.0f / peak : 1.0f;
         for (std::size_t c = 0; c < 3; ++c) {
             k.albedo[i][c] = optics.albedo[c];
             k.sun_source[i][c] = float(lighting.sun_irradiance[c] * double(optics.albedo[c]));
@@ -91,7 +91,7 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
     }
     for (std::size_t c = 0; c < 3; ++c) {
         k.to_sun[c] = lighting.to_sun[c];
-        k.ambient[c] = in.settings->ambient[c];
+        k.ambient[c] = in.settings->look.ambient[c];
     }
 }
 
@@ -133,34 +133,35 @@ void set_levels(const RaymarchInput& in, RaymarchParams& k) {
 
 int raymarch_levels(const RaymarchSettings& s, const CameraParams& camera, const Medium& medium,
                     double reach_m) {
-    if (!s.detail) return 0;
+    if (!s.march.detail) return 0;
     double diagonal = 0;
     for (double e : medium.extent_m) diagonal += e * e;
     diagonal = __builtin_sqrt(diagonal);
-    const StepParams k = raymarch_steps(s, camera, medium.grid);
+    const StepParams k = raymarch_steps(s.march, camera, medium.grid);
     double widest = double(k.pixel) * (camera.orthographic != 0 ? 1 : reach_m);
     const auto at_least = [&](double width) { widest = width > widest ? width : widest; };
-    if (s.steps > 0 && s.spacing == RaymarchSpacing::kUniform) at_least(diagonal / s.steps);
+    if (s.march.steps > 0 && s.march.spacing == RaymarchSpacing::kUniform)
+        at_least(diagonal / s.march.steps);
     // Growing steps may end with any share of the way, a slanted way is longer.
     if (k.grows != 0) at_least(diagonal);
-    if (s.light_steps > 0) at_least(diagonal);
+    if (s.light.steps > 0) at_least(diagonal);
     if (medium.grid.periodic) at_least(diagonal);
     int levels = 0;
-    for (double cell = double(smallest_cell(medium.grid)); cell < widest && levels < kMostLevels;
+    for (double cell = double(smallest_cell(medium.grid)); cell < widest && levels < kMaxLevels;
          cell *= 2)
         ++levels;
     return int(level_grids(medium.grid, levels).size());
 }
 
 void set_octaves(const RaymarchSettings& settings, const Medium& medium, const float (*first)[3],
-                 float (*g)[kMostOctaves], float (*source)[kMostOctaves][3]) {
-    const Octaves octaves = octaves_of(settings);
+                 float (*g)[kMaxOctaves], float (*source)[kMaxOctaves][3]) {
+    const Octaves octaves = octaves_of(settings.scattering);
     for (int i = 0; i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
         float own = phase_moment(optics.phase, 1), light[3];
         for (int c = 0; c < 3; ++c) light[c] = first[i][c];
         for (int n = 1; n < octaves.count; ++n) {
-            own *= float(settings.octave_anisotropy);
+            own *= float(settings.scattering.octave_anisotropy);
             g[i][n] = own;
             for (int c = 0; c < 3; ++c) {
                 light[c] *= optics.albedo[c] * octaves.share;
@@ -190,11 +191,12 @@ OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium) {
     return out;
 }
 
-Octaves octaves_of(const RaymarchSettings& s) {
+Octaves octaves_of(const RaymarchScatterSettings& s) {
     return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
 
-int keep_forward(const RaymarchSettings& s, const Medium& medium, float (&kept)[kMostMedia][3]) {
+int keep_forward(const RaymarchScatterSettings& s, const Medium& medium,
+                 float (&kept)[kMaxMedia][3]) {
     int channels = 1;
     for (int i = 0; s.forward && i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
@@ -207,7 +209,7 @@ int keep_forward(const RaymarchSettings& s, const Medium& medium, float (&kept)[
     return channels;
 }
 
-double mean_kept(const RaymarchSettings& s, const Medium& medium) {
+double mean_kept(const RaymarchScatterSettings& s, const Medium& medium) {
     double sum = 0;
     for (int i = 0; i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
@@ -216,7 +218,8 @@ double mean_kept(const RaymarchSettings& s, const Medium& medium) {
     return medium.count > 0 ? sum / medium.count : 0;
 }
 
-StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera, const Grid& grid) {
+StepParams raymarch_steps(const RaymarchStepSettings& s, const CameraParams& camera,
+                          const Grid& grid) {
     StepParams k{};
     k.most = float(s.steps);
     k.stretch = s.stretch ? 1 : 0;
@@ -256,27 +259,27 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.medium = make_medium_view(*in.medium, *in.majorants);
     k.camera = in.camera;
     k.lattice = in.lattice.every > 0 ? in.lattice : whole_lattice(in.camera);
-    k.rule = rule_of(in.settings->integrator);
-    k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    k.rule = rule_of(in.settings->march.integrator);
+    k.step = raymarch_steps(in.settings->march, in.camera, in.medium->grid);
     if (in.medium->detail.present()) {
         // Levels are told by cells.
         k.medium.step = smallest_cell(in.medium->grid);
-        if (in.settings->spacing == RaymarchSpacing::kVoxel)
+        if (in.settings->march.spacing == RaymarchSpacing::kVoxel)
             k.step.least_m = march_step(*in.medium);
     }
     if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it
     set_jitter(in, k.step);
     set_levels(in, k);
-    if (in.sky != nullptr) {
-        k.sky.nodes = in.sky->grid;
-        k.sky.sets = in.sky->sets;
-        std::memcpy(k.sky.colour, in.sky->colour, sizeof k.sky.colour);
+    if (in.nodes.sky != nullptr) {
+        k.sky.nodes = in.nodes.sky->grid;
+        k.sky.sets = in.nodes.sky->sets;
+        std::memcpy(k.sky.colour, in.nodes.sky->colour, sizeof k.sky.colour);
     }
-    k.cut = float(in.settings->stop_below);
-    k.visibility = in.visibility_nodes;
+    k.cut = float(in.settings->march.stop_below);
+    k.visibility = in.nodes.visibility_grid;
     set_media(in, k);
     set_light(in, k);
-    k.light.octaves = octaves_of(*in.settings);
+    k.light.octaves = octaves_of(in.settings->scattering);
     set_octaves(*in.settings, *in.medium, k.sun_source, k.light.octave_g, k.octave_source);
     k.octave_depths = octave_depths(k.light.octaves, *in.medium);
     if (in.look != nullptr) set_look(*in.look, k);
@@ -284,12 +287,12 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
 }
 
 OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchParams& march) {
-    const OrdinateNodes& nodes = *in.ordinates;
+    const OrdinateNodes& nodes = *in.nodes.ordinates;
     const Lighting& light = *in.lighting;
     OrdinatesMarchParams o{};
     o.march = march;
     o.nodes = nodes.grid;
-    if (in.sky_levels != nullptr) o.levels = *in.sky_levels;
+    if (in.nodes.sky_levels != nullptr) o.levels = *in.nodes.sky_levels;
     o.sets = std::int32_t(nodes.shown.size());
     o.moments = nodes.has_moments ? kOrdinateMoments : 0;
     o.per_near = nodes.per_near;
@@ -304,11 +307,11 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     o.turn = ordinate_peak();
     o.sunlit = march.sunlit;
     o.map = light.map;
-    o.has_ground = light.ground ? 1 : 0;
+    o.has_ground = light.ground.present ? 1 : 0;
     std::copy_n(nodes.horizon, kHorizon, o.horizon);
     o.per_horizon = float((kHorizon - 1) / sincos_deg(kOrdinatePeakDeg).sine);
     const bool told = nodes.ground.map.size[0] > 0;
-    const Double3 ground = told ? nodes.ground.sends : light.ground_radiance();
+    const Double3 ground = told ? nodes.ground.sends : light.ground.radiance();
     for (std::size_t c = 0; c < 3; ++c) {
         for (int i = 0; i < nodes.media; ++i) {
             o.rest[i][c] = nodes.optics[i][c].rest;
@@ -330,11 +333,11 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     Buffer<std::int64_t> counts;
     PILEUS_TRY(allocate(arrays::raymarch_counts(rows), counts));
     RaymarchBuffers b{};
-    if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
-    b.visibility = in.visibility;
-    b.sky_light = in.sky_light;
+    if (in.nodes.sun != nullptr) b.optical_depth = in.nodes.sun->optical_depth.data();
+    b.visibility = in.nodes.visibility;
+    b.sky_light = in.nodes.sky_light;
     b.opaque_depth = planes.opaque_depth.data();
-    if (in.sky != nullptr) b.sky = in.sky->light.data();
+    if (in.nodes.sky != nullptr) b.sky = in.nodes.sky->light.data();
     if (in.noise != nullptr) b.noise = in.noise->data();
     b.parts = in.medium->parts.data();
     b.transmittance = planes.transmittance.data();
@@ -347,13 +350,14 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     std::optional<OrdinatesMarchParams> of_ordinates;
     std::optional<OrdinatesSkyParams> of_sky_ordinates;
     OrdinatesMarchBuffers ordinates{};
-    if (in.ordinates != nullptr) {
+    if (in.nodes.ordinates != nullptr) {
         of_ordinates = ordinates_params(in, k);
         if (in.layer != nullptr)
             of_sky_ordinates = OrdinatesSkyParams{*of_ordinates, in.layer->params};
-        const OrdinateNodes& nodes = *in.ordinates;
-        ordinates = {b,           nodes.light.data(),  nodes.near.data(), nodes.peak.tables.data(),
-                     in.surfaces, nodes.sunward.data()};
+        const OrdinateNodes& nodes = *in.nodes.ordinates;
+        const float* const surfaces = in.nodes.surfaces;
+        ordinates = {b,        nodes.light.data(),  nodes.near.data(), nodes.peak.tables.data(),
+                     surfaces, nodes.sunward.data()};
     }
     // Where a device draws, it runs the others.
     const KernelTable& kernels = host_kernels(context.kernels);

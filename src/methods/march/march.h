@@ -24,26 +24,31 @@ inline Array<std::int64_t> raymarch_counts(std::uint64_t rows) {
 
 }  // namespace arrays
 
-struct RaymarchInput {
-    const Medium* medium = nullptr;
-    const Majorants* majorants = nullptr;  ///< blocks to skip
-    const Lighting* lighting = nullptr;
-    const RaymarchSettings* settings = nullptr;
-    const OpticalDepthSettings* look = nullptr;  ///< of method optical-depth; null: of raymarch
-    const SunDepth* nodes = nullptr;
-    NodeGrid visibility_nodes{};
+/// Light that is made before the march.
+struct RaymarchNodes {
+    const SunDepth* sun = nullptr;
+    NodeGrid visibility_grid{};
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
     const OrdinateNodes* ordinates = nullptr;        ///< in place of octaves and of sky
     const OrdinateLevelsView* sky_levels = nullptr;  ///< of `ordinates` of a layer
     /// [3][pixel] of the whole picture: light of solids, of such scenes and with ordinates alone.
     const float* surfaces = nullptr;
+    const SkyLightView* sky_light = nullptr;  ///< of the layer; null: each sample marches
+};
+
+struct RaymarchInput {
+    const Medium* medium = nullptr;
+    const Majorants* majorants = nullptr;  ///< blocks to skip
+    const Lighting* lighting = nullptr;
+    const RaymarchSettings* settings = nullptr;
+    const OpticalDepthSettings* look = nullptr;  ///< of method optical-depth; null: of raymarch
+    RaymarchNodes nodes;
     const std::vector<DensityLevel>* levels = nullptr;
     const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
     bool march_light = false;
-    const SkyLightView* sky_light = nullptr;  ///< of the layer; null: each sample marches
-    const Buffer<float>* noise = nullptr;     ///< tile of make_blue_noise, where jitter asks for it
-    std::uint64_t seed = 0;                   ///< of the frame
+    const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
+    std::uint64_t seed = 0;                ///< of the frame
     CameraParams camera;
     PixelLattice lattice{};  ///< the pixels to march; every = 0: all of them
 };
@@ -53,7 +58,7 @@ struct RaymarchTally {
 };
 
 /// The steps that a scene asks for.
-StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& camera,
+StepParams raymarch_steps(const RaymarchStepSettings& settings, const CameraParams& camera,
                           const Grid& grid);
 
 /// Levels of detail that no step or pixel of a run goes beyond; 0 where cells are never too fine.
@@ -63,19 +68,19 @@ int raymarch_levels(const RaymarchSettings& settings, const CameraParams& camera
 
 /// Share of the light that each medium scatters which goes on as if it were not, by channel.
 /// Returns how many channels differ: 1 or 3.
-int keep_forward(const RaymarchSettings& settings, const Medium& medium,
-                 float (&kept)[kMostMedia][3]);
+int keep_forward(const RaymarchScatterSettings& settings, const Medium& medium,
+                 float (&kept)[kMaxMedia][3]);
 
 /// Share of scattered light that forward scattering keeps, over all media and channels.
-double mean_kept(const RaymarchSettings& settings, const Medium& medium);
+double mean_kept(const RaymarchScatterSettings& settings, const Medium& medium);
 
 /// One octave unless scattering = "octaves".
-Octaves octaves_of(const RaymarchSettings& settings);
+Octaves octaves_of(const RaymarchScatterSettings& settings);
 
 /// Phase functions and albedos, shares in them, of octaves from 1 on: Henyey-Greenstein's, which
 /// take albedo and share once more each. `first`: what octave 0 is multiplied by.
 void set_octaves(const RaymarchSettings& settings, const Medium& medium, const float (*first)[3],
-                 float (*g)[kMostOctaves], float (*source)[kMostOctaves][3]);
+                 float (*g)[kMaxOctaves], float (*source)[kMaxOctaves][3]);
 
 /// What absorption leaves of them (docs/raymarch.md, "Octaves").
 OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium);
@@ -83,7 +88,7 @@ OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium);
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
 
-/// And of light by discrete ordinates, in.ordinates.
+/// And of light by discrete ordinates, in.nodes.ordinates.
 OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchParams& march);
 
 /// Marches into the planes' transmittance, colour and what else they have room for; ends rays at

@@ -49,7 +49,7 @@ Status choose_march_work(const Context& context, const FrameView& view, double s
     RaymarchSettings& settings = choice.settings;
     UpsampleSettings& thin = settings.thin;
     if (!choice.look) thin = choice.whole_thin;
-    settings.steps = choice.whole_steps;
+    settings.march.steps = choice.whole_steps;
     double pixel_s = 0;
     PILEUS_TRY(pixel_seconds(in, state.picture, pixel_s));
     const double left_s = choice.seconds - (wall_seconds() - start_s);
@@ -63,14 +63,14 @@ Status choose_march_work(const Context& context, const FrameView& view, double s
     if (takes(every) > left_s) {
         const double share = std::max(left_s, 0.0) / takes(every);
         const int fewest = std::min(kFewestSteps, choice.whole_steps);
-        settings.steps = std::max(int(share * choice.whole_steps), fewest);
+        settings.march.steps = std::max(int(share * choice.whole_steps), fewest);
     }
     // Where light comes from was chosen for all steps; with fewer the same scene might choose
     // again.
-    const bool swept = settings.light == RaymarchLightKind::kBuffer;
+    const bool swept = settings.light.kind == RaymarchLightKind::kBuffer;
     const char* light = choice.march_light ? "march" : swept ? "buffer" : "buffer-exact";
-    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale, thin.temporal, settings.steps,
-                                  settings.light_refresh, 0};
+    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale, thin.temporal,
+                                  settings.march.steps, settings.light.refresh, 0};
     context.report->light_rule = light;
     return Status::ok();
 }

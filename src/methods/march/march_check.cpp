@@ -34,8 +34,8 @@ Status check_marched(const Scene& scene, const Budget& budget) {
 
 Status check_raymarch(const Scene& scene, const Budget& budget) {
     PILEUS_TRY(check_marched(scene, budget));
-    const RaymarchLightKind light = scene.raymarch.light;
-    if (scene.raymarch.light_cone &&
+    const RaymarchLightKind light = scene.raymarch.light.kind;
+    if (scene.raymarch.light.cone &&
         (light == RaymarchLightKind::kBuffer || light == RaymarchLightKind::kBufferExact))
         return Status::bad_input(scene.file +
                                  ": raymarch.light: nodes hold straight ways, not those of "

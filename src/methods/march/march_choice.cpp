@@ -33,11 +33,11 @@ double reach_of(const Camera& c, const Medium& medium) {
 void choose_light(const FrameView& view, MarchChoice& choice) {
     const RaymarchSettings& s = choice.settings;
     const Grid& grid = view.world.medium.grid;
-    choice.sky_nodes = view.world.direct_sky && s.light == RaymarchLightKind::kAuto &&
-                       !s.light_cone && s.light_steps > kNearSteps;
-    choice.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
-    choice.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
-    if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
+    choice.sky_nodes = view.world.direct_sky && s.light.kind == RaymarchLightKind::kAuto &&
+                       !s.light.cone && s.light.steps > kNearSteps;
+    choice.march_light = s.light.kind == RaymarchLightKind::kMarch || s.light.cone;
+    choice.light_why = s.light.cone ? "light_path = \"cone\"" : "as the scene asks";
+    if (s.light.cone || s.light.kind != RaymarchLightKind::kAuto) return;
     if (view.world.direct_sky) {
         choice.march_light = true;
         choice.light_why = "the sky is evaluated in place";
@@ -49,15 +49,15 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
         choice.light_why = "light between the nodes of constant cells is not linear";
         return;
     }
-    if (s.ordinates) {
+    if (s.scattering.ordinates) {
         choice.march_light = false;
         choice.light_why = "scattering = \"ordinates\"";
         return;
     }
     const double pixels = double(view.scene.camera.whole_pixels());
     const double way = 0.5 * cells_across(grid);
-    const double lit = double(s.steps < 64 ? s.steps : 64) * pixels;
-    const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
+    const double lit = double(s.march.steps < 64 ? s.march.steps : 64) * pixels;
+    const double marched = lit * (s.light.steps > 0 ? double(s.light.steps) : way);
     const double nodes = double(voxel_count(grid)) * way;
     choice.march_light = marched < nodes;
     explain_march_light(marched, nodes, choice);
@@ -66,9 +66,9 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
 /// What both methods have; of settings, where a time leaves all.
 void take_inputs(const MethodInputs& inputs, MarchChoice& choice) {
     choice.hosted = inputs.live;
-    if (inputs.live) choice.settings.stop_below = host_stop(choice.settings.stop_below);
+    if (inputs.live) choice.settings.march.stop_below = host_stop(choice.settings.march.stop_below);
     choice.seconds = inputs.budget.seconds;
-    choice.whole_steps = choice.settings.steps;
+    choice.whole_steps = choice.settings.march.steps;
     choice.whole_thin = choice.settings.thin;
 }
 
@@ -77,7 +77,7 @@ void take_inputs(const MethodInputs& inputs, MarchChoice& choice) {
 MarchChoice raymarch_choice(const MethodInputs& inputs) {
     MarchChoice out;
     out.settings = inputs.scene.raymarch;
-    if (inputs.budget.steps >= 0) out.settings.steps = int(inputs.budget.steps);
+    if (inputs.budget.steps >= 0) out.settings.march.steps = int(inputs.budget.steps);
     take_inputs(inputs, out);
     return out;
 }
@@ -88,13 +88,14 @@ MarchChoice optical_depth_choice(const MethodInputs& inputs) {
     const bool unseen = inputs.budget.steps == 0;
     if (inputs.budget.steps >= 0) look.steps = int(inputs.budget.steps);
     RaymarchSettings& s = out.settings;
-    s.many = s.automatic = false;
-    s.spacing = look.steps > 0 || unseen ? RaymarchSpacing::kUniform : RaymarchSpacing::kVoxel;
-    s.steps = look.steps > 0 || unseen ? look.steps : 1;
-    s.light = look.exact ? RaymarchLightKind::kBufferExact : RaymarchLightKind::kBuffer;
-    s.ambient = look.ambient;
-    s.sky_ambient = false;
-    s.stop_below = look.stop_below;
+    s.scattering.many = s.scattering.automatic = false;
+    s.march.spacing =
+        look.steps > 0 || unseen ? RaymarchSpacing::kUniform : RaymarchSpacing::kVoxel;
+    s.march.steps = look.steps > 0 || unseen ? look.steps : 1;
+    s.light.kind = look.exact ? RaymarchLightKind::kBufferExact : RaymarchLightKind::kBuffer;
+    s.look.ambient = look.ambient;
+    s.light.sky_ambient = false;
+    s.march.stop_below = look.stop_below;
     out.look = look;
     take_inputs(inputs, out);
     return out;
@@ -109,7 +110,7 @@ void choose_march(const FrameView& view, MarchChoice& choice) {
 }
 
 int sky_light_bits(const MarchChoice& choice) {
-    return choice.settings.thin.every() > 1 ? kMostSkyLightBits - 1 : kMostSkyLightBits;
+    return choice.settings.thin.every() > 1 ? kMaxSkyLightBits - 1 : kMaxSkyLightBits;
 }
 
 }  // namespace pileus

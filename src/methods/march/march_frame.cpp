@@ -21,7 +21,7 @@ namespace {
 /// the grid.
 Status add_lamps(const Context& context, const FrameView& view, MarchState& state) {
     const Medium& medium = marched_medium(view, state);
-    if ((view.lighting.lamps.empty() && !emits(medium)) || state.choice.settings.steps == 0)
+    if ((view.lighting.lamps.empty() && !emits(medium)) || state.choice.settings.march.steps == 0)
         return Status::ok();
     LampNodes& lamps = state.light.lamps;
     PILEUS_TRY(make_lamp_nodes(context, medium, state.media.majorants, view.lighting,
@@ -59,18 +59,18 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
     in.lighting = &view.lighting;
     in.settings = &state.choice.settings;
     in.look = state.choice.look ? &*state.choice.look : nullptr;
-    in.nodes = &light.nodes;
-    in.visibility_nodes = light.visibility_nodes;
-    in.visibility = light.visibility.data();
-    if (state.choice.settings.ordinates && !light.sky_ordinates.levels.empty()) {
-        in.ordinates = &light.sky_ordinates.front;
-        in.sky_levels = &light.sky_ordinates.view;
-    } else if (state.choice.settings.ordinates && !light.ordinates.density.empty())
-        in.ordinates = &light.ordinates;
+    in.nodes.sun = &light.sun.nodes;
+    in.nodes.visibility_grid = light.sun.visibility_nodes;
+    in.nodes.visibility = light.sun.visibility.data();
+    if (state.choice.settings.scattering.ordinates && !light.ordinates.sky.levels.empty()) {
+        in.nodes.ordinates = &light.ordinates.sky.front;
+        in.nodes.sky_levels = &light.ordinates.sky.view;
+    } else if (state.choice.settings.scattering.ordinates && !light.ordinates.nodes.density.empty())
+        in.nodes.ordinates = &light.ordinates.nodes;
     else
-        in.sky = &light.sky;
+        in.nodes.sky = &light.sky.nodes;
     // What a depth image shows is black, and hides what its neighbours see.
-    if (has_meshes(view.lighting)) in.surfaces = state.picture.planes.background.data();
+    if (has_meshes(view.lighting)) in.nodes.surfaces = state.picture.planes.background.data();
     in.levels = &state.media.coarse;
     in.march_light = state.choice.march_light;
     in.noise = &state.picture.noise;
@@ -84,7 +84,7 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
 }  // namespace
 
 const float* lamp_tables(const MarchState& state) {
-    return state.light.ordinates.peak.tables.data();
+    return state.light.ordinates.nodes.peak.tables.data();
 }
 
 LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
@@ -93,14 +93,14 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     const auto& look = state.choice.look;
     LampMarchParams k =
         lamp_march_params(medium, state.media.majorants, view.lighting, state.picture.camera,
-                          state.light.lamps, settings.stop_below);
-    k.octaves = octaves_of(settings);
+                          state.light.lamps, settings.march.stop_below);
+    k.octaves = octaves_of(settings.scattering);
     set_octaves(settings, medium, k.albedo, k.octave_g, k.octave_source);
     k.octave_depths = octave_depths(k.octaves, medium);
-    k.forward = settings.forward ? 1 : 0;
-    (void)keep_forward(settings, medium, k.kept);
-    const OrdinateNodes& nodes = state.light.ordinates;
-    if (settings.ordinates && !nodes.density.empty()) {
+    k.forward = settings.scattering.forward ? 1 : 0;
+    (void)keep_forward(settings.scattering, medium, k.kept);
+    const OrdinateNodes& nodes = state.light.ordinates.nodes;
+    if (settings.scattering.ordinates && !nodes.density.empty()) {
         k.ordinates = medium.channels;
         k.peak_turn = ordinate_peak();
         k.beam_sets = nodes.peak.sets;
@@ -112,7 +112,7 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     }
     for (int i = 0; i < k.media; ++i) {
         float unit = 1;
-        if (settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);
+        if (settings.look.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);
         if (look) {
             // As the sun's light in this method: twice, and with a phase function of its own.
             if (look->g >= -1) k.phase[i] = {kPhaseHg, float(look->g), 0, 1};
@@ -134,7 +134,8 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     BackgroundParams k = background_params(read, state.picture.camera, light);
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(shadow, k, b);
-    if (state.choice.settings.ordinates) read_ground_light(state.light.ordinates, k, b);
+    if (state.choice.settings.scattering.ordinates)
+        read_ground_light(state.light.ordinates.nodes, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }
@@ -149,7 +150,8 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
         picture.camera =
             make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
     }
-    if (state.choice.settings.jitter == RaymarchJitterKind::kBlueNoise && picture.noise.empty())
+    if (state.choice.settings.march.jitter == RaymarchJitterKind::kBlueNoise &&
+        picture.noise.empty())
         PILEUS_TRY(make_blue_noise(picture.noise));
     PILEUS_TRY(light_march(context, view, ask.view_slack_deg, state));
     PILEUS_TRY(allocate_picture(context, view, picture));
@@ -168,11 +170,11 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
         return raymarch_picture(context, in, planes, picture.tally);
     };
     if (state.choice.sky_nodes && view.lighting.sunlit && medium.sigma > 0) {
-        SkyLight& nodes = state.light.sky_light;
+        SkyLight& nodes = state.light.sky.layer;
         PILEUS_TRY(follow_sky_light(context, raymarch_params(in), view.world.layer.params,
                                     sky_light_bits(state.choice), kNearSteps,
                                     march_turn(view, state), nodes));
-        in.sky_light = &nodes.view;
+        in.nodes.sky_light = &nodes.view;
     }
     PILEUS_TRY(choose_march_work(context, view, start_s, thin, state));
     thin.settings = state.choice.settings.thin;

@@ -27,7 +27,7 @@ Status light_nodes(const Context& context, const FrameView& view, MarchState& st
     const bool apart = !media.lit.volume.density.empty();
     const Medium& medium = apart ? media.lit : marched_medium(view, state);
     const Majorants& majorants = apart ? media.lit_majorants : media.majorants;
-    if (state.choice.settings.light != RaymarchLightKind::kBuffer) {
+    if (state.choice.settings.light.kind != RaymarchLightKind::kBuffer) {
         // Coarser densities reach farther than the medium's own.
         const MediumView read = state.choice.levels > 0
                                     ? MediumView{}
@@ -35,17 +35,17 @@ Status light_nodes(const Context& context, const FrameView& view, MarchState& st
         return follow_sun_depth(
             context, medium, majorants, read,
             media.wide_sun ? wide_sun_depth_nodes(medium) : sun_depth_nodes(medium),
-            march_turn(view, state), light.slices, light.nodes);
+            march_turn(view, state), light.sun.slices, light.sun.nodes);
     }
-    if (!light.nodes.optical_depth.empty() && light.nodes_to_sun == to_sun) return Status::ok();
+    if (!light.sun.nodes.optical_depth.empty() && light.sun.to_sun == to_sun) return Status::ok();
     PILEUS_TRY(
-        make_sun_depth(context, medium, majorants, to_sun, SunDepthKind::kSwept, light.nodes));
+        make_sun_depth(context, medium, majorants, to_sun, SunDepthKind::kSwept, light.sun.nodes));
     // A thousand rays tell what the sweep smears.
-    light.nodes_difference = {};
-    if (light.nodes.swept)
-        PILEUS_TRY(sun_depth_difference(context, medium, majorants, to_sun, light.nodes,
-                                        kComparedNodes, light.nodes_difference));
-    light.nodes_to_sun = to_sun;
+    light.sun.difference = {};
+    if (light.sun.nodes.swept)
+        PILEUS_TRY(sun_depth_difference(context, medium, majorants, to_sun, light.sun.nodes,
+                                        kComparedNodes, light.sun.difference));
+    light.sun.to_sun = to_sun;
     return Status::ok();
 }
 
@@ -54,18 +54,20 @@ Status light_sky(const Context& context, const FrameView& view, double slack_deg
                  MarchState& state) {
     const Medium& medium = view.world.medium;
     const RaymarchSettings& settings = state.choice.settings;
-    if (!settings.sky_ambient || settings.ordinates || medium.sigma <= 0) return Status::ok();
+    if (!settings.light.sky_ambient || settings.scattering.ordinates || medium.sigma <= 0)
+        return Status::ok();
     MarchLight& light = state.light;
     const CameraParams& camera = state.picture.camera;
     const SkyView sky = sky_view(view, state);
-    const bool seen = !sky.turned || same_way(medium, slack_deg, light.sky_camera, camera);
-    if (light.sky_made && seen && light.sky_to_sun == view.lighting.to_sun) return Status::ok();
-    light.sky_made = false;
-    light.sky_to_sun = view.lighting.to_sun;
-    light.sky_camera = camera;
+    const bool seen = !sky.turned || same_way(medium, slack_deg, light.sky.camera, camera);
+    if (light.sky.made && seen && light.sky.to_sun == view.lighting.to_sun) return Status::ok();
+    light.sky.made = false;
+    light.sky.to_sun = view.lighting.to_sun;
+    light.sky.camera = camera;
     PILEUS_TRY(make_sky_nodes(context, medium, state.media.majorants, view.lighting,
-                              mean_kept(settings, medium), octaves_of(settings), sky, light.sky));
-    light.sky_made = true;
+                              mean_kept(settings.scattering, medium),
+                              octaves_of(settings.scattering), sky, light.sky.nodes));
+    light.sky.made = true;
     return Status::ok();
 }
 
@@ -76,9 +78,9 @@ Status shade_by_solids(const Context& context, const FrameView& view, MarchLight
         return Status::ok();
     float coarse = 0;
     for (float cell : medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    light.visibility_nodes = make_node_grid(medium.grid, medium.extent_m, 2 * double(coarse));
-    return solid_visibility(context, view.world.solids, light.visibility_nodes,
-                            view.lighting.to_sun, light.visibility);
+    light.sun.visibility_nodes = make_node_grid(medium.grid, medium.extent_m, 2 * double(coarse));
+    return solid_visibility(context, view.world.solids, light.sun.visibility_nodes,
+                            view.lighting.to_sun, light.sun.visibility);
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ bool same_way(const Medium& medium, double slack_deg, const CameraParams& a,
 }
 
 SunTurn march_turn(const FrameView& view, const MarchState& state) {
-    return turn_of_sun(view, state.choice.settings.light_refresh, state.light.turn);
+    return turn_of_sun(view, state.choice.settings.light.refresh, state.light.turn);
 }
 
 SkyView sky_view(const FrameView& view, const MarchState& state) {
@@ -111,7 +113,7 @@ SkyView sky_view(const FrameView& view, const MarchState& state) {
     out.turned = !state.choice.look && !world.medium.grid.periodic &&
                  !(world.direct_sky && world.layer.params.boxed == 0);
     out.camera = state.picture.camera;
-    out.anisotropy = float(state.choice.settings.octave_anisotropy);
+    out.anisotropy = float(state.choice.settings.scattering.octave_anisotropy);
     return out;
 }
 
@@ -120,7 +122,7 @@ Status light_march(const Context& context, const FrameView& view, double slack_d
     PILEUS_TRY(light_nodes(context, view, state));
     PILEUS_TRY(shade_by_solids(context, view, state.light));
     PILEUS_TRY(light_sky(context, view, slack_deg, state));
-    if (!state.choice.settings.ordinates) return Status::ok();
+    if (!state.choice.settings.scattering.ordinates) return Status::ok();
     if (!view.lighting.lamps.empty() && view.world.medium.sigma > 0)
         PILEUS_TRY(make_lamp_nodes(context, view.world.medium, state.media.majorants, view.lighting,
                                    has_lamp_spots(view, state.choice), state.light.lamps));

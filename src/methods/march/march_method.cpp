@@ -35,16 +35,19 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     media.outlined_only = false;
     PILEUS_TRY(cap_medium(view, state_));
     const RaymarchSettings& settings = state_.choice.settings;
-    media.wide_sun = settings.ordinates && settings.light != RaymarchLightKind::kBuffer &&
-                     !view.world.direct_sky && has_wide_sun(view.world.medium);
-    state_.light.sky_made = false;
-    const bool nodes = settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0;
+    media.wide_sun = settings.scattering.ordinates &&
+                     settings.light.kind != RaymarchLightKind::kBuffer && !view.world.direct_sky &&
+                     has_wide_sun(view.world.medium);
+    state_.light.sky.made = false;
+    const bool nodes =
+        settings.scattering.ordinates && settings.march.steps > 0 && view.world.medium.sigma > 0;
     if (nodes && view.world.direct_sky)
         PILEUS_TRY(prepare_sky_ordinates(context, view.world.medium, view.world.layer.params,
-                                         state_.choice.hosted, state_.light.sky_ordinates));
+                                         state_.choice.hosted, state_.light.ordinates.sky));
     else if (nodes)
         PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants,
-                                     may_have_lamps(view, state_.choice), state_.light.ordinates));
+                                     may_have_lamps(view, state_.choice),
+                                     state_.light.ordinates.nodes));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
                                media.majorants.skip_block, context, media.coarse);
 }
@@ -55,17 +58,18 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
     const MarchChoice& choice = state_.choice;
     MarchLight& light = state_.light;
     PILEUS_TRY(reserve_depths(size, solid, state_.picture.planes));
-    PILEUS_TRY(reserve_lamp_nodes(view.world.medium,
-                                  view.scene.lights.size() * (choice.settings.ordinates ? 2 : 1),
-                                  light.lamps));
-    light.slices.reserve();
+    PILEUS_TRY(reserve_lamp_nodes(
+        view.world.medium,
+        view.scene.lights.size() * (choice.settings.scattering.ordinates ? 2 : 1), light.lamps));
+    light.sun.slices.reserve();
     light.ground_shadow.slices.reserve();
     if (choice.look) return Status::ok();
-    if (!light.ordinates.density.empty()) PILEUS_TRY(reserve_ordinates(light.ordinates));
-    if (!light.sky_ordinates.levels.empty()) PILEUS_TRY(reserve_sky_ordinates(light.sky_ordinates));
+    if (!light.ordinates.nodes.density.empty())
+        PILEUS_TRY(reserve_ordinates(light.ordinates.nodes));
+    if (!light.ordinates.sky.levels.empty()) PILEUS_TRY(reserve_sky_ordinates(light.ordinates.sky));
     // Fewer marched pixels have fewer nodes.
     if (choice.sky_nodes)
-        PILEUS_TRY(reserve_sky_light(view.world.layer.params, kMostSkyLightBits, light.sky_light));
+        PILEUS_TRY(reserve_sky_light(view.world.layer.params, kMaxSkyLightBits, light.sky.layer));
     return reserve_upsampling(choice.settings.thin, size, solid, state_.picture.upsample);
 }
 
@@ -73,11 +77,11 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
 Status MarchMethod::set_view(const Context&, const FrameView& view, const ViewChange& change) {
     MarchPicture& picture = state_.picture;
     if (change.new_sky || change.new_shine || change.new_run) {
-        state_.light.sky_made = false;
+        state_.light.sky.made = false;
         picture.upsample.ready = false;
     }
     if (change.new_run) {
-        state_.light.slices.held.clear();
+        state_.light.sun.slices.held.clear();
         state_.light.ground_shadow.slices.held.clear();
     }
     const auto& size = view.scene.camera.resolution;
@@ -112,8 +116,8 @@ FrameWork MarchMethod::full_work() const {
         return out;
     }
     out = work_of(choice.settings.thin);
-    out.light_refresh = choice.settings.light_refresh;
-    out.steps = choice.settings.steps;
+    out.light_refresh = choice.settings.light.refresh;
+    out.steps = choice.settings.march.steps;
     return out;
 }
 
@@ -123,13 +127,13 @@ Status MarchMethod::set_limits(const FrameWork& work) {
     if (choice.look) {
         // One step a cell has no number.
         if (work.steps == 0) return Status::ok();
-        settings.spacing = RaymarchSpacing::kUniform;
+        settings.march.spacing = RaymarchSpacing::kUniform;
     } else {
         put_work(work, settings.thin);
-        settings.light_refresh = work.light_refresh;
+        settings.light.refresh = work.light_refresh;
         choice.whole_thin = settings.thin;
     }
-    settings.steps = work.steps;
+    settings.march.steps = work.steps;
     return Status::ok();
 }
 

@@ -13,20 +13,22 @@ namespace {
 
 /// What of a scene discrete ordinates do not know; null: they know it all.
 const char* beyond_ordinates(const RaymarchSettings& s) {
-    if (s.powder != RaymarchPowderKind::kNone) return "powder";
-    if (s.light_cone) return "light_path = \"cone\"";
-    if (s.integrator != RaymarchIntegrator::kClosed) return "an integrator but \"closed\"";
-    if (s.peak_phase) return "phase = \"peak\"";
-    if (!s.sky_ambient) return "sky_light = \"none\"";
-    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0) return "ambient";
+    if (s.look.powder != RaymarchPowderKind::kNone) return "powder";
+    if (s.light.cone) return "light_path = \"cone\"";
+    if (s.march.integrator != RaymarchIntegrator::kClosed) return "an integrator but \"closed\"";
+    if (s.look.peak_phase) return "phase = \"peak\"";
+    if (!s.light.sky_ambient) return "sky_light = \"none\"";
+    if (s.look.ambient[0] > 0 || s.look.ambient[1] > 0 || s.look.ambient[2] > 0) return "ambient";
     return nullptr;
 }
 
 /// Whether the scene says how octaves should be.
 bool has_own_octaves(const RaymarchSettings& s) {
     const RaymarchSettings plain;
-    return s.octaves != plain.octaves || s.octave_extinction != plain.octave_extinction ||
-           s.octave_share != plain.octave_share || s.octave_anisotropy != plain.octave_anisotropy;
+    return s.scattering.octaves != plain.scattering.octaves ||
+           s.scattering.octave_extinction != plain.scattering.octave_extinction ||
+           s.scattering.octave_share != plain.scattering.octave_share ||
+           s.scattering.octave_anisotropy != plain.scattering.octave_anisotropy;
 }
 
 }  // namespace
@@ -34,12 +36,12 @@ bool has_own_octaves(const RaymarchSettings& s) {
 Status choose_scattering(const FrameView& view, MarchChoice& choice) {
     RaymarchSettings& s = choice.settings;
     choice.beyond_ordinates = nullptr;
-    if (!s.automatic && !s.ordinates) return Status::ok();
+    if (!s.scattering.automatic && !s.scattering.ordinates) return Status::ok();
     const char* beyond = beyond_ordinates(s);
-    if (s.automatic) {
+    if (s.scattering.automatic) {
         if (beyond == nullptr && has_own_octaves(s)) beyond = "keys of octaves";
         choice.beyond_ordinates = beyond;
-        s.ordinates = beyond == nullptr;
+        s.scattering.ordinates = beyond == nullptr;
         return Status::ok();
     }
     if (beyond == nullptr) return Status::ok();
@@ -54,7 +56,7 @@ namespace {
 /// Of thick voxels depths at the places that are lit are found by rays.
 const SunDepth* sun_of_nodes(const Medium& medium, const MarchState& state) {
     const bool read = has_thin_voxels(medium) && !state.choice.march_light;
-    return read ? &state.light.nodes : nullptr;
+    return read ? &state.light.sun.nodes : nullptr;
 }
 
 OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& state) {
@@ -88,7 +90,7 @@ Status light_sky_levels(const Context& context, const FrameView& view, const Lig
     ask.camera = state.picture.camera;
     ask.pictures = pictures;
     return follow_sky_ordinates(context, medium, state.media.majorants, lighting, ask,
-                                state.light.sky_ordinates);
+                                state.light.ordinates.sky);
 }
 
 }  // namespace
@@ -105,7 +107,7 @@ bool may_have_lamps(const FrameView& view, const MarchChoice& choice) {
 }
 
 bool has_lamp_spots(const FrameView& view, const MarchChoice& choice) {
-    return choice.settings.ordinates && !view.world.direct_sky;
+    return choice.settings.scattering.ordinates && !view.world.direct_sky;
 }
 
 OwnLight own_light_of(const FrameView& view, const MarchState& state) {
@@ -116,9 +118,9 @@ OwnLight own_light_of(const FrameView& view, const MarchState& state) {
 
 Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
                            const OwnLight& own, MarchState& state) {
-    if (!state.light.sky_ordinates.levels.empty())
+    if (!state.light.ordinates.sky.levels.empty())
         return light_sky_levels(context, view, light, 1, state);
-    OrdinateNodes& nodes = state.light.ordinates;
+    OrdinateNodes& nodes = state.light.ordinates.nodes;
     if (nodes.density.empty()) return Status::ok();
     const Medium& medium = view.world.medium;
     const OrdinateAsk ask = ask_of(medium, own, state);
@@ -132,32 +134,32 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
     MarchLight& light = state.light;
     // A host that lets light take several pictures has iterations go on from the last solution.
     // Where its sun has stood still for as many, light is what it is without.
-    const int refresh = state.choice.hosted ? state.choice.settings.light_refresh : 1;
-    if (!light.sky_ordinates.levels.empty())
+    const int refresh = state.choice.hosted ? state.choice.settings.light.refresh : 1;
+    if (!light.ordinates.sky.levels.empty())
         return light_sky_levels(context, view, view.lighting, refresh, state);
-    if (light.ordinates.density.empty()) return Status::ok();
+    if (light.ordinates.nodes.density.empty()) return Status::ok();
     const CameraParams& camera = state.picture.camera;
     OrdinateAsk ask = ask_of(medium, own_light_of(view, state), state);
     // set_view tells of other lights than the sun's direction.
-    bool solve = !light.sky_made || light.sky_to_sun != view.lighting.to_sun;
+    bool solve = !light.sky.made || light.sky.to_sun != view.lighting.to_sun;
     if (solve) {
-        light.ordinates_followed = refresh > 1 && !light.ordinates.sets.empty();
-        light.ordinates_still = 0;
-    } else if (light.ordinates_followed) {
-        light.ordinates_followed = ++light.ordinates_still < refresh - 1;
-        solve = !light.ordinates_followed || unsolved(light.ordinates);
+        light.ordinates.followed = refresh > 1 && !light.ordinates.nodes.sets.empty();
+        light.ordinates.still = 0;
+    } else if (light.ordinates.followed) {
+        light.ordinates.followed = ++light.ordinates.still < refresh - 1;
+        solve = !light.ordinates.followed || unsolved(light.ordinates.nodes);
     }
-    if (light.ordinates_followed) ask.iterations = kFollowedIterations;
-    const bool seen = !solve && same_way(medium, slack_deg, light.sky_camera, camera);
+    if (light.ordinates.followed) ask.iterations = kFollowedIterations;
+    const bool seen = !solve && same_way(medium, slack_deg, light.sky.camera, camera);
     if (seen) return Status::ok();
-    light.sky_made = false;
+    light.sky.made = false;
     if (solve)
         PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, view.lighting, ask,
-                                  light.ordinates));
-    PILEUS_TRY(turn_ordinates(context, medium, camera, true, light.ordinates));
-    light.sky_to_sun = view.lighting.to_sun;
-    light.sky_camera = camera;
-    light.sky_made = true;
+                                  light.ordinates.nodes));
+    PILEUS_TRY(turn_ordinates(context, medium, camera, true, light.ordinates.nodes));
+    light.sky.to_sun = view.lighting.to_sun;
+    light.sky.camera = camera;
+    light.sky.made = true;
     return Status::ok();
 }
 

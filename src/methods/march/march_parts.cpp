@@ -49,16 +49,16 @@ Status light_nodes_by(const Context& context, const FrameView& view, const Light
                       const OwnLight& own, MarchState& state) {
     const Medium& medium = view.world.medium;
     const RaymarchSettings& settings = state.choice.settings;
-    if (settings.ordinates) return solve_ordinates_for(context, view, light, own, state);
-    if (!settings.sky_ambient || medium.sigma <= 0) return Status::ok();
+    if (settings.scattering.ordinates) return solve_ordinates_for(context, view, light, own, state);
+    if (!settings.light.sky_ambient || medium.sigma <= 0) return Status::ok();
     return make_sky_nodes(context, medium, state.media.majorants, light,
-                          mean_kept(settings, medium), octaves_of(settings), sky_view(view, state),
-                          state.light.sky);
+                          mean_kept(settings.scattering, medium), octaves_of(settings.scattering),
+                          sky_view(view, state), state.light.sky.nodes);
 }
 
 Status light_nodes_by_ordinates(const Context& context, const FrameView& view,
                                 const Lighting& light, const OwnLight& own, MarchState& state) {
-    if (!state.choice.settings.ordinates) return Status::ok();
+    if (!state.choice.settings.scattering.ordinates) return Status::ok();
     return solve_ordinates_for(context, view, light, own, state);
 }
 
@@ -69,7 +69,7 @@ Status show_under(const Context& context, const FrameView& view, const RaymarchI
                   const Lighting& light, const OwnLight& own, bool background, MarchState& state,
                   Planes& part) {
     RaymarchSettings settings = state.choice.settings;
-    std::copy_n(kDark, 3, settings.ambient.begin());
+    std::copy_n(kDark, 3, settings.look.ambient.begin());
     RaymarchInput in = whole;
     in.lighting = &light;
     in.settings = &settings;
@@ -90,17 +90,17 @@ Status show_emission(const Context& context, const FrameView& view, const Raymar
                      MarchState& state, Planes& part) {
     Lighting dark = sun_alone(view.lighting);
     dark.sunlit = false;
-    dark.sun_irradiance = dark.ground_diffuse = dark.ground_sun = dark.ground_lamps = {};
+    dark.sun_irradiance = dark.ground.diffuse = dark.ground.sun = dark.ground.lamps = {};
     RaymarchInput in = whole;
     in.lighting = &dark;
-    in.sky = nullptr;
+    in.nodes.sky = nullptr;
     PILEUS_TRY(light_nodes_by_ordinates(context, view, dark, {0, 0, true, -1}, state));
-    const bool lights_ground = whole.ordinates != nullptr;
+    const bool lights_ground = whole.nodes.ordinates != nullptr;
     PILEUS_TRY(show_part(context, view, in, lights_ground ? &dark : nullptr, state, part));
     if (lights_ground) lay_over(part);
     PILEUS_TRY(
         light_nodes_by_ordinates(context, view, view.lighting, own_light_of(view, state), state));
-    if (march_emits(view, state) && state.choice.settings.steps > 0) {
+    if (march_emits(view, state) && state.choice.settings.march.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
         k.lamps = k.ground = 0;
         PILEUS_TRY(add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
@@ -117,10 +117,10 @@ Status show_ground_of_lamp(const Context& context, const FrameView& view,
                            MarchState& state, Planes& part) {
     Lighting ground = sun_alone(view.lighting);
     ground.sunlit = false;
-    ground.sun_irradiance = ground.ground_sun = {};
-    ground.ground_lamps = radiance;
+    ground.sun_irradiance = ground.ground.sun = {};
+    ground.ground.lamps = radiance;
     return show_under(context, view, whole, ground, {lamp, 1, false, state.light.lamps.spot[lamp]},
-                      whole.ordinates != nullptr, state, part);
+                      whole.nodes.ordinates != nullptr, state, part);
 }
 
 Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,
@@ -128,20 +128,20 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
     Planes& planes = state.picture.planes;
     const std::size_t count = view.lighting.lamps.size(), pixels = planes.transmittance.size();
     PILEUS_TRY(allocate(arrays::picture_planes(3 * count, pixels), planes.lamps));
-    if (state.choice.settings.steps == 0) return Status::ok();
+    if (state.choice.settings.march.steps == 0) return Status::ok();
     std::copy_n(planes.transmittance.data(), pixels, part.transmittance.data());
     LampMarchParams k = march_lamps(view, state);
     k.emits = 0;
     k.lamps = 1;
     for (std::size_t i = 0; i < count; ++i) {
         const Double3 ground = ground_of_lamp(view.lighting, view.lighting.lamps[i]);
-        const bool nodes = whole.sky != nullptr || whole.ordinates != nullptr;
-        const bool lit = (ground != Double3{} || whole.ordinates != nullptr) && nodes &&
-                         state.choice.settings.sky_ambient && view.world.medium.sigma > 0;
+        const bool nodes = whole.nodes.sky != nullptr || whole.nodes.ordinates != nullptr;
+        const bool lit = (ground != Double3{} || whole.nodes.ordinates != nullptr) && nodes &&
+                         state.choice.settings.light.sky_ambient && view.world.medium.sigma > 0;
         std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
         if (lit) PILEUS_TRY(show_ground_of_lamp(context, view, whole, i, ground, state, part));
         // The medium's light on the ground is there already.
-        if (!lit || whole.ordinates == nullptr)
+        if (!lit || whole.nodes.ordinates == nullptr)
             std::fill_n(part.background.data(), part.background.size(), 0.0f);
         const auto add = [&](std::size_t lamp) {
             return add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
@@ -160,21 +160,21 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
 Status show_single(const Context& context, const FrameView& view, const RaymarchInput& whole,
                    MarchState& state, Planes& part) {
     RaymarchSettings settings = state.choice.settings;
-    settings.many = settings.forward = settings.automatic = false;
-    std::copy_n(kDark, 3, settings.ambient.begin());
+    settings.scattering.many = settings.scattering.forward = settings.scattering.automatic = false;
+    std::copy_n(kDark, 3, settings.look.ambient.begin());
     RaymarchInput in = whole;
     in.settings = &settings;
-    in.ordinates = nullptr;
-    if (settings.sky_ambient && view.world.medium.sigma > 0) {
+    in.nodes.ordinates = nullptr;
+    if (settings.light.sky_ambient && view.world.medium.sigma > 0) {
         Lighting groundless = view.lighting;
-        groundless.ground_diffuse = groundless.ground_sun = groundless.ground_lamps = {};
+        groundless.ground.diffuse = groundless.ground.sun = groundless.ground.lamps = {};
         PILEUS_TRY(make_sky_nodes(context, view.world.medium, state.media.majorants, groundless, 0,
-                                  octaves_of(settings), sky_view(view, state),
-                                  state.light.single_sky));
-        in.sky = &state.light.single_sky;
+                                  octaves_of(settings.scattering), sky_view(view, state),
+                                  state.light.sky.single));
+        in.nodes.sky = &state.light.sky.single;
     }
     PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
-    if (!view.lighting.lamps.empty() && settings.steps > 0) {
+    if (!view.lighting.lamps.empty() && settings.march.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
         k.emits = k.ground = 0;
         k.lamps = std::int32_t(view.lighting.lamps.size());
@@ -191,7 +191,7 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
 }  // namespace
 
 bool march_emits(const FrameView& view, const MarchState& state) {
-    const auto& ambient = state.choice.settings.ambient;
+    const auto& ambient = state.choice.settings.look.ambient;
     return emits(marched_medium(view, state)) || ambient[0] > 0 || ambient[1] > 0 || ambient[2] > 0;
 }
 
@@ -217,22 +217,22 @@ Status march_parts(const Context& context, const FrameView& view, const Raymarch
 Status follow_march(const Context& context, const FrameView& view, const RaymarchInput& whole,
                     MarchState& state) {
     const RaymarchSettings& settings = state.choice.settings;
-    const RayEnds ends{settings.stop_below, settings.thin.every() > 1};
+    const RayEnds ends{settings.march.stop_below, settings.thin.every() > 1};
     const auto march = [&](Planes& rays) {
         // The same steps without light.
         Lighting dark = sun_alone(view.lighting);
         dark.sunlit = false;
         dark.sun_irradiance = {};
         RaymarchSettings own = settings;
-        own.stop_below = 0;
-        own.many = own.forward = own.automatic = false;
-        std::copy_n(kDark, 3, own.ambient.begin());
+        own.march.stop_below = 0;
+        own.scattering.many = own.scattering.forward = own.scattering.automatic = false;
+        std::copy_n(kDark, 3, own.look.ambient.begin());
         RaymarchInput in = whole;
         in.lattice = PixelLattice{};
         in.lighting = &dark;
         in.settings = &own;
-        in.sky = nullptr;
-        in.ordinates = nullptr;
+        in.nodes.sky = nullptr;
+        in.nodes.ordinates = nullptr;
         RaymarchTally counted;  // of the picture's own march alone
         return raymarch_picture(context, in, rays, counted);
     };

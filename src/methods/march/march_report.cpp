@@ -27,10 +27,12 @@ std::uint64_t pixels_of(const Scene& scene) {
 /// What changes the picture's looks and has no physics behind it.
 void note_appearance(const RaymarchSettings& s, Plan& plan) {
     constexpr const char* kTag = ": appearance, not physics";
-    if (s.powder != RaymarchPowderKind::kNone) plan.need((std::string("powder") + kTag).c_str());
-    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0)
+    if (s.look.powder != RaymarchPowderKind::kNone)
+        plan.need((std::string("powder") + kTag).c_str());
+    if (s.look.ambient[0] > 0 || s.look.ambient[1] > 0 || s.look.ambient[2] > 0)
         plan.need((std::string("ambient emission") + kTag).c_str());
-    if (s.peak_phase) plan.need((std::string("phase functions over their peak") + kTag).c_str());
+    if (s.look.peak_phase)
+        plan.need((std::string("phase functions over their peak") + kTag).c_str());
 }
 
 bool has_sky(const Lighting& light) {
@@ -77,23 +79,23 @@ void note_light(const FrameView& view, const MarchChoice& choice, Plan& plan) {
         plan.need(("sunlight by a march from each sample: " + choice.light_why).c_str());
     else
         plan.need(("sunlight from nodes: " + choice.light_why).c_str());
-    if (sun && s.forward)
+    if (sun && s.scattering.forward)
         plan.need("forward scattering: approximation");
     else
         plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
-    if (s.ordinates)
+    if (s.scattering.ordinates)
         plan.need("light scattered more than once by discrete ordinates on coarse nodes");
-    else if (s.many)
+    else if (s.scattering.many)
         plan.need("light scattered more than once as octaves of the first: approximation");
     else
         plan.leave_out("light scattered more than once", "scattering is not \"octaves\"");
     if (choice.beyond_ordinates != nullptr)
         plan.leave_out("discrete ordinates", choice.beyond_ordinates);
-    if (!has_sky(view.lighting) && !view.lighting.ground)
+    if (!has_sky(view.lighting) && !view.lighting.ground.present)
         plan.leave_out("skylight in the medium", "no sky, no ground");
-    else if (s.ordinates)
+    else if (s.scattering.ordinates)
         plan.need("skylight by discrete ordinates on coarse nodes");
-    else if (s.sky_ambient)
+    else if (s.light.sky_ambient)
         plan.need("skylight from 24 directions on coarse nodes: approximation");
     else
         plan.leave_out("skylight in the medium", "sky_light = \"none\"");
@@ -105,13 +107,13 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (state.choice.look)
         plan.bias = {"optical-depth", "a look: light scattered more than once is only hinted at",
                      "docs/optical-depth.md"};
-    else if (settings.ordinates)
+    else if (settings.scattering.ordinates)
         plan.bias = {"raymarch", "light scattered more than once in 32 directions on coarse nodes",
                      "docs/ordinates.md"};
     else
         plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
                      "docs/raymarch.md"};
-    if (settings.steps > 0) {
+    if (settings.march.steps > 0) {
         plan.need(view.world.direct_sky ? "the sky's noises, evaluated in place" : "majorants");
         plan.need("marched rays");
         if (state.choice.look) {
@@ -128,7 +130,7 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
         plan.leave_out("lights", scene.lights.empty() ? "no [[light]]" : "dark or underground");
     else
         plan.need((std::to_string(lamps) + " lights of [[light]], " +
-                   (settings.many ? "octaves too" : "scattered once"))
+                   (settings.scattering.many ? "octaves too" : "scattered once"))
                       .c_str());
     note_emission(view.world.medium, false, plan);
     if (view.lighting.sunlit && scene.sun.angular_radius_deg > 0)
@@ -138,8 +140,8 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     else
         plan.leave_out(
             "coarser levels of the density",
-            settings.detail ? "no step or pixel is wider than a cell" : "detail = false");
-    if (settings.jitter == RaymarchJitterKind::kNone)
+            settings.march.detail ? "no step or pixel is wider than a cell" : "detail = false");
+    if (settings.march.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     if (!state.choice.look) note_upsampling(scene, settings.thin, plan);
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
@@ -159,14 +161,14 @@ SkyOrdinateSizes level_sizes(const FrameView& view, bool outlined) {
     SkyParams sky{};
     sky.low_m = float(settings.base_m);
     sky.height_m = float(settings.top_m - settings.base_m);
-    sky.boxed = view.scene.media[0].has_bounds ? 1 : 0;
+    sky.boxed = view.scene.media[0].box.has_bounds ? 1 : 0;
     for (int a = 0; a < 3; ++a) sky.extent_m[a] = float(world.medium.extent_m[a]);
     return sky_ordinate_sizes(sky, 1e30);
 }
 
 void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryTable& t) {
     const Medium& medium = view.world.medium;
-    const OrdinateNodes& made = state.light.ordinates;
+    const OrdinateNodes& made = state.light.ordinates.nodes;
     const bool levels = view.world.direct_sky;
     OrdinateSizes sizes = lit_ordinate_sizes(medium, view.lighting, made);
     if (levels) {
@@ -221,17 +223,17 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_density(level, last));
         add(t, arrays::coarse_blocks(level, last));
     }
-    if (settings.ordinates) add_march_ordinates(view, state, t);
-    if (settings.sky_ambient && !settings.ordinates) {
+    if (settings.scattering.ordinates) add_march_ordinates(view, state, t);
+    if (settings.light.sky_ambient && !settings.scattering.ordinates) {
         const std::uint64_t nodes = node_count(sky_node_grid(medium));
         const int sets = sky_node_sets(lighting);
         const int sky_numbers =
-            sky_seen_numbers(sky_view(view, state).turned, octaves_of(settings).count);
+            sky_seen_numbers(sky_view(view, state).turned, octaves_of(settings.scattering).count);
         add(t, arrays::sky_light(nodes, sets, last));
         if (sets > 0) add(t, arrays::sky_seen(nodes, sky_numbers));
     }
     const std::uint64_t parts = march_part_planes(view, state);
-    if (settings.sky_ambient && output.layer_order) {
+    if (settings.light.sky_ambient && output.layer_order) {
         const std::uint64_t nodes = node_count(sky_node_grid(medium));
         const int sets = sky_node_sets(lighting);
         add(t, renamed(arrays::sky_light(nodes, sets, last), "skylight scattered once",
@@ -247,12 +249,12 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     const std::uint64_t rays = whole_ray_planes(
-        output, {settings.stop_below, settings.thin.every() > 1}, view.wants_depth());
+        output, {settings.march.stop_below, settings.thin.every() > 1}, view.wants_depth());
     if (rays > 0 && !state.choice.hosted)
         add(t, renamed(arrays::picture_planes(rays, pixels), "planes of whole rays",
                        Stage::kDisplay, Stage::kLayers));
     add(t, arrays::ground_shadow(most_ground_nodes(medium, lighting, pixels)));
-    if (settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
+    if (settings.march.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
     const bool half = view.wants_depth() || settings.thin.temporal > 0;
     add_upsample_row(settings.thin, scene.camera.resolution, lighting.opaque(), half,
                      output.layer_optical_depth, last, t);
@@ -293,7 +295,7 @@ public:
     void report(Report& report) const override {
         const MarchState& state = of_.state();
         const MarchPicture& picture = state.picture;
-        const SkyLight& sky_light = state.light.sky_light;
+        const SkyLight& sky_light = state.light.sky.layer;
         report.executed.emplace_back("density_levels", state.media.coarse.size());
         report.executed.emplace_back("marched_pixels", picture.upsample.marched);
         report.executed.emplace_back("recalled_pixels", picture.upsample.recalled);
@@ -301,10 +303,10 @@ public:
         report.executed.emplace_back("light_samples", picture.tally.light_samples);
         report.executed.emplace_back("sky_light_nodes", sky_light.made);
         report.executed.emplace_back("sky_light_samples", sky_light.densities);
-        report.sweep = state.light.nodes_difference;
-        const std::vector<SkyLevel>& levels = state.light.sky_ordinates.levels;
-        if (!state.choice.settings.ordinates) return;
-        if (levels.empty()) tell_ordinates(state.light.ordinates, report);
+        report.sweep = state.light.sun.difference;
+        const std::vector<SkyLevel>& levels = state.light.ordinates.sky.levels;
+        if (!state.choice.settings.scattering.ordinates) return;
+        if (levels.empty()) tell_ordinates(state.light.ordinates.nodes, report);
         for (const SkyLevel& level : levels) tell_ordinates(level.nodes, report);
     }
 
@@ -321,8 +323,8 @@ public:
             return;
         }
         pileus::put_work(work, tables.raymarch.thin);
-        tables.raymarch.steps = work.steps;
-        tables.raymarch.light_refresh = work.light_refresh;
+        tables.raymarch.march.steps = work.steps;
+        tables.raymarch.light.refresh = work.light_refresh;
     }
 
 private:

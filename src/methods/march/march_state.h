@@ -43,25 +43,37 @@ struct MarchMedia {
     Majorants lit_majorants;
 };
 
+struct MarchSun {
+    SunDepth nodes;
+    SweepCheck difference;          ///< of swept nodes to rays
+    std::array<float, 3> to_sun{};  ///< the sun that swept nodes were made for
+    SunSlices slices;               ///< and those of nodes by rays
+    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
+    NodeGrid visibility_nodes{};
+};
+
+struct MarchSky {
+    SkyNodes nodes;
+    SkyNodes single;                ///< of light scattered once, where layer `order` shows it
+    bool made = false;              ///< its nodes are those of the light as it is
+    std::array<float, 3> to_sun{};  ///< the sun that the sky's nodes were made for
+    CameraParams camera{};          ///< and the camera
+    SkyLight layer;                 ///< of a sky in place
+};
+
+struct MarchOrdinates {
+    OrdinateNodes nodes;
+    int still = 0;          ///< pictures since the sun has moved
+    bool followed = false;  ///< they went on from those of another sun
+    SkyOrdinates sky;       ///< of a sky in place, instead
+};
+
 /// Light on nodes, which frames of the same light share.
 struct MarchLight {
     std::int64_t turn = 0;  ///< number of the picture
-    SunDepth nodes;
-    SweepCheck nodes_difference;          ///< of swept nodes to rays
-    std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for
-    SunSlices slices;                     ///< and those of nodes by rays
-    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
-    NodeGrid visibility_nodes{};
-    SkyNodes sky;
-    SkyNodes single_sky;                ///< of light scattered once, where layer `order` shows it
-    bool sky_made = false;              ///< its nodes are those of the light as it is
-    std::array<float, 3> sky_to_sun{};  ///< the sun that the sky's nodes were made for
-    CameraParams sky_camera{};          ///< and the camera
-    SkyLight sky_light;
-    OrdinateNodes ordinates;
-    int ordinates_still = 0;          ///< pictures since the sun has moved
-    bool ordinates_followed = false;  ///< they went on from those of another sun
-    SkyOrdinates sky_ordinates;       ///< of a sky in place, instead
+    MarchSun sun;
+    MarchSky sky;
+    MarchOrdinates ordinates;
     LampNodes lamps;
     GroundShadow ground_shadow;
 };

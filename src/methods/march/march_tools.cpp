@@ -12,7 +12,7 @@ constexpr std::int64_t kDraftSteps = 96;
 
 void raymarch_draft(const Scene& scene, std::vector<std::string>& sets) {
     const RaymarchSettings& s = scene.raymarch;
-    sets.push_back(at_most_text("raymarch.steps", s.steps, kDraftSteps));
+    sets.push_back(at_most_text("raymarch.steps", s.march.steps, kDraftSteps));
     if (may_thin(scene, s.thin)) sets.push_back("raymarch.scale=2");
 }
 
@@ -22,7 +22,7 @@ void raymarch_whole(const Scene&, std::vector<std::string>& sets) {
 }
 
 FilmMemory raymarch_memory(const MethodTables& tables) {
-    return {keeps_pictures(tables.raymarch.thin, tables.raymarch.light_refresh), false};
+    return {keeps_pictures(tables.raymarch.thin, tables.raymarch.light.refresh), false};
 }
 
 }  // namespace

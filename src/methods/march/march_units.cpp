@@ -15,7 +15,7 @@ Status ray_samples(const FrameView& view, const FrameWork& work, const MarchStat
                    std::uint64_t& samples) {
     constexpr std::uint64_t kRule = 2 * 3;
     const Medium& medium = marched_medium(view, state);
-    if (state.choice.settings.spacing == RaymarchSpacing::kVoxel || medium.grid.constant) {
+    if (state.choice.settings.march.spacing == RaymarchSpacing::kVoxel || medium.grid.constant) {
         PILEUS_TRY(most_grid_samples(medium, samples));
         // Those and its own steps end a step.
         if (medium.grid.constant) samples += std::uint64_t(work.steps);
@@ -32,7 +32,7 @@ Status sun_samples(const FrameView& view, const MarchState& state, std::uint64_t
     const bool lit = view.scene.sun.present || view.scene.atmosphere.present;
     if (!lit || !state.choice.march_light || state.choice.sky_nodes) return Status::ok();
     PILEUS_TRY(most_grid_samples(view.world.medium, samples));
-    const std::uint64_t steps = std::uint64_t(state.choice.settings.light_steps);
+    const std::uint64_t steps = std::uint64_t(state.choice.settings.light.steps);
     if (steps > 0 && !view.world.medium.grid.constant) samples = steps;
     return Status::ok();
 }
@@ -44,7 +44,7 @@ Status march_most_units(const FrameView& view, const FrameWork& work, const Marc
     const Medium& medium = view.world.medium;
     const Lighting& lighting = view.lighting;
     most_pixels(work, view.scene.camera.resolution, lighting.opaque(), state.picture.upsample, out);
-    if (state.choice.settings.steps == 0 || medium.sigma <= 0) return Status::ok();
+    if (state.choice.settings.march.steps == 0 || medium.sigma <= 0) return Status::ok();
     std::uint64_t own = 0, sun = 0;
     PILEUS_TRY(ray_samples(view, work, state, own));
     PILEUS_TRY(sun_samples(view, state, sun));

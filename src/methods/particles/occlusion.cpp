@@ -22,15 +22,15 @@ Status sky_seen(const Context& context, const FrameView& view, const ParticlesSt
     PILEUS_TRY(allocate(arrays::particle_around(count), seen));
     Buffer<float> depth;
     PILEUS_TRY(allocate(arrays::particle_depths(count, 1), depth));
-    const int first = view.lighting.ground ? kSkyParts / 2 : 0;
+    const int first = view.lighting.ground.present ? kSkyParts / 2 : 0;
     const float share = 1.0f / float(kSkyParts - first);
     // What is deeper lets nothing through.
-    constexpr float kMost = 88;
+    constexpr float kMax = 88;
     for (int part = first; part < kSkyParts; ++part) {
         SunTiles tiles;
         PILEUS_TRY(
             make_sun_tiles(context, state.tree, casts_of(state), sky_direction(part), tiles));
-        PILEUS_TRY(sun_depths(context, tiles, {0, 0, 0}, kMost, depth.data(), part - first,
+        PILEUS_TRY(sun_depths(context, tiles, {0, 0, 0}, kMax, depth.data(), part - first,
                               kSkyParts - first));
         parallel_each(context.threads, count,
                       [&](std::size_t i) { seen[i] += share * exp_(-depth[i]); });

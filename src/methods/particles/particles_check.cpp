@@ -8,9 +8,9 @@ namespace pileus {
 
 Status check_particles(const Scene& scene, const Budget& budget) {
     const bool bins = !scene.particles.billboards && budget.steps >= 0;
-    if (bins && (budget.steps == 0 || budget.steps > kMostParticleBins))
+    if (bins && (budget.steps == 0 || budget.steps > kMaxParticleBins))
         return Status::bad_input("--budget steps: out of range, " + std::to_string(budget.steps) +
-                                 ", allowed: 1 to " + std::to_string(kMostParticleBins) +
+                                 ", allowed: 1 to " + std::to_string(kMaxParticleBins) +
                                  " for method particles");
     PILEUS_TRY(check_budget_kinds(scene, budget));
     if (!shows_particles(scene))
@@ -20,7 +20,7 @@ Status check_particles(const Scene& scene, const Budget& budget) {
                                  " media, allowed: one [[medium]] whose density is a file of "
                                  "particles (.ply, .csv, .prt, .bgeo, .pdb, .pda) or "
                                  "procedural:plume, procedural:particle-cumulus");
-    if (scene.media[0].periodic)
+    if (scene.media[0].box.periodic)
         return Status::bad_input(scene.file +
                                  ": medium.0.boundary: method particles shows each particle once, "
                                  "\"periodic\", allowed: left out");

@@ -25,7 +25,7 @@ Status fill_background(const Context& context, const FrameView& view, ParticlesS
 
 /// The grid dims light on its way to the ground, as it does the sun's.
 Status light_ground_by_lamps(const Context& context, const FrameView& view, ParticlesState& state) {
-    if (view.lighting.lamps.empty() || !view.lighting.ground) return Status::ok();
+    if (view.lighting.lamps.empty() || !view.lighting.ground.present) return Status::ok();
     LampNodes lamps;
     lamps.lamps = view.lighting.lamps;
     const Medium& medium = view.world.medium;

@@ -31,7 +31,7 @@ struct ParticlesState {
     Buffer<ParticleBall> occluders;  ///< empty: all cast shadows
     int light_orders = 1;            ///< of a light's light
     int orders = 0;                  ///< of the sun's; 0: no sun
-    std::array<ParticleOrder, kMostParticleOrders> order{};
+    std::array<ParticleOrder, kMaxParticleOrders> order{};
     Buffer<ParticleShade> shade;  ///< [ball]
     Buffer<float> sky;            ///< [channel][ball]; empty: none
     Buffer<float> seen;           ///< [ball]: share of the sun that solids leave; empty: all
@@ -90,7 +90,7 @@ inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
 }  // namespace arrays
 
 /// Most bins along a ray.
-constexpr int kMostParticleBins = 4096;
+constexpr int kMaxParticleBins = 4096;
 
 /// Places in each particle that are lit.
 inline int light_samples(const ParticlesSettings& settings) {

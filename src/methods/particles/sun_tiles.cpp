@@ -19,7 +19,7 @@ namespace {
 constexpr double kPlacesPerTile = 2048;
 /// Side of a tile in mean radii at least.
 constexpr double kLeastSide = 3;
-constexpr int kMostAcross = 1024;
+constexpr int kMaxAcross = 1024;
 /// Times that a tile is halved at most, and what is not halved any more: so few places, or a side
 /// of so many mean radii.
 constexpr int kHalvings = 8;
@@ -103,7 +103,7 @@ int tile_at(const SunTiles& t, float place, int a) {
 
 /// Tiles over the box of all, `side` wide but for their most number.
 void lay_tiles(const float (&size)[2], double side, SunTiles& t) {
-    for (const float s : size) side = std::max(side, double(s) / (kMostAcross - 1));
+    for (const float s : size) side = std::max(side, double(s) / (kMaxAcross - 1));
     t.side = float(side);
     for (int a = 0; a < 2; ++a) t.across[a] = 1 + int(size[a] / t.side);
 }

@@ -16,7 +16,7 @@ namespace {
 /// Pixels across a tile, where balls are small, and across a block, whose rays share a list.
 constexpr std::int32_t kTilePixels = 32, kBlockPixels = 8;
 /// Balls of a tile; with more, its rays walk through the tree.
-constexpr std::uint32_t kMostSeen = 65536;
+constexpr std::uint32_t kMaxSeen = 65536;
 /// Of lengths in the kernel, rounding included; and of pixels.
 constexpr double kSlack = 4e-6, kPixelSlack = 0.05;
 
@@ -32,8 +32,8 @@ struct Nearer {
     }
 };
 struct Scratch {
-    Cover covers[kMostSeen];
-    ParticleSeen seen[kMostSeen];
+    Cover covers[kMaxSeen];
+    ParticleSeen seen[kMaxSeen];
 };
 
 class Screen {
@@ -219,7 +219,7 @@ ParticleTile tile_at(const Tiles& t, const CameraParams& c, std::int64_t piece) 
 }
 
 /// Calls draw(block) for the blocks of a tile, each with those of numbers[count] that it may see,
-/// the nearest first; at most kMostSeen.
+/// the nearest first; at most kMaxSeen.
 template <class Thing, class Draw>
 void draw_blocks(Span<const Thing> things, const Screen& screen, const std::uint32_t* numbers,
                  std::uint32_t count, ParticleTile tile, Scratch& s, Draw draw) {
@@ -277,7 +277,7 @@ Status march_particles(const Context& context, const ParticleTree& tree,
         ParticleTile tile = tile_at(tiles, c, piece);
         const std::uint64_t first = tiles.begin[std::size_t(piece)];
         const std::uint64_t named = tiles.begin[std::size_t(piece) + 1] - first;
-        if (named == 0 || named > kMostSeen) {
+        if (named == 0 || named > kMaxSeen) {
             tile.count = named == 0 ? 0 : 1;
             return draw(tile);
         }
@@ -312,18 +312,18 @@ Status blend_particles(const Context& context, const ParticleTree& tree,
         const std::uint64_t named =
             tiles.begin[std::size_t(piece) + 1] - tiles.begin[std::size_t(piece)];
         // More than are at hand at once are sorted first and blended by and by.
-        if (named > kMostSeen)
+        if (named > kMaxSeen)
             std::sort(numbers, numbers + named, [&](std::uint32_t a, std::uint32_t b) {
                 return boards[a].distance != boards[b].distance
                            ? boards[a].distance < boards[b].distance
                            : a < b;
             });
         const ParticleTile tile = tile_at(tiles, c, piece);
-        for (std::uint64_t from = 0; from < named; from += kMostSeen)
+        for (std::uint64_t from = 0; from < named; from += kMaxSeen)
             draw_blocks(boards, screen, numbers + from,
-                        std::uint32_t(std::min<std::uint64_t>(kMostSeen, named - from)), tile,
+                        std::uint32_t(std::min<std::uint64_t>(kMaxSeen, named - from)), tile,
                         scratch[std::size_t(thread)], [&](const ParticleTile& block) {
-                            if (on_device(device)) return add_round(from / kMostSeen, block);
+                            if (on_device(device)) return add_round(from / kMaxSeen, block);
                             blend(k, {buffers, &block}, 0, 1);
                         });
     });

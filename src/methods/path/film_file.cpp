@@ -15,7 +15,7 @@ constexpr std::uint64_t kFormat = 4;
 // Magic, format, digest, width, height, parts, samples, pixels ahead and by how many samples.
 constexpr std::size_t kHeadWords = 9;
 constexpr std::size_t kTallyWords = sizeof(PathTally) / sizeof(std::int64_t);
-constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 40;
 
 std::uint64_t bits_of(double value) {
     std::uint64_t bits;
@@ -91,7 +91,7 @@ void add_medium(const PathInput& in, Digest& d) {
 
 void add_light(const Lighting& light, Digest& d) {
     d.u32(light.sunlit ? 1 : 0);
-    d.u32(light.ground ? 1 : 0);
+    d.u32(light.ground.present ? 1 : 0);
     for (std::size_t c = 0; c < 3; ++c) {
         d.f32(light.to_sun[c]);
         d.f32(float(light.sun_irradiance[c]));
@@ -99,9 +99,9 @@ void add_light(const Lighting& light, Digest& d) {
     }
     // In air the sun at the ground tells its light at every height.
     for (std::size_t c = 0; c < 3 && light.sun_heights.rows > 0; ++c)
-        d.f32(float(sun_at_height(light, light.ground_z)[int(c)]));
-    d.f32(float(light.ground_z));
-    d.f32(float(light.ground_albedo));
+        d.f32(float(sun_at_height(light, light.ground.z)[int(c)]));
+    d.f32(float(light.ground.z));
+    d.f32(float(light.ground.albedo));
     for (const LampParams& lamp : light.lamps) {
         d.u32(std::uint32_t(lamp.parallel));
         for (std::size_t c = 0; c < 3; ++c) {
@@ -151,7 +151,7 @@ Status check_head(const std::string& path, Span<const char> bytes, std::uint64_t
     const std::uint64_t ahead = word_at(bytes, 7), more = word_at(bytes, 8);
     if (ahead > 0 && (ahead >= film.pixels() || more == 0 || more > 0xffffffffu / film.pixels()))
         return fault(path, "damaged, a pass that cannot be");
-    return samples <= kMostSamples ? Status::ok() : fault(path, "damaged, too many samples");
+    return samples <= kMaxSamples ? Status::ok() : fault(path, "damaged, too many samples");
 }
 
 /// Copies doubles out of the file, from word `first` on; false where one is no finite number.
@@ -209,13 +209,13 @@ std::uint64_t path_state_digest(const PathInput& in, const std::string& version)
     if (in.lighting->depth != nullptr) d.floats(in.lighting->depth->metres.span());
     add_camera(in.camera, d);
     d.u64(in.seed);
-    d.u32(std::uint32_t(in.max_depth));
+    d.u32(std::uint32_t(in.rules.max_depth));
     d.u32(in.jitter ? 1 : 0);
     d.u32(in.parts ? 1 : 0);
-    d.u32(in.max_events);
-    d.u32(in.guide ? 1 : 0);
-    d.f32(float(in.sun_radius_deg));
-    d.u32(in.importance != nullptr ? 1 : 0);
+    d.u32(in.rules.max_events);
+    d.u32(in.rules.guide ? 1 : 0);
+    d.f32(float(in.rules.sun_radius_deg));
+    d.u32(in.rules.importance != nullptr ? 1 : 0);
     return d.value();
 }
 

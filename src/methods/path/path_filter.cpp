@@ -18,7 +18,7 @@ bool has_sky(const Lighting& light) {
 /// Whether all that is solid is a ground under the sun and an even sky, or that of clear air. Then
 /// its light is filtered, too, and media have the same light before it and before the sky.
 bool has_plain_ground(const Lighting& light) {
-    return light.ground && !has_surfaces(light) && light.lamps.empty() &&
+    return light.ground.present && !has_surfaces(light) && light.lamps.empty() &&
            (light.map.columns == 0 || light.air);
 }
 

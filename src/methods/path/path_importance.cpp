@@ -30,8 +30,8 @@ void set_units(const Lighting& from, bool sky, bool ground, Lighting& out) {
     out = from;
     out.sun_irradiance = Double3{1, 1, 1};
     out.sky = sky ? Double3{1, 1, 1} : Double3{};
-    out.ground_diffuse = out.ground_sun = out.ground_lamps = Double3{};
-    if (ground) out.ground_diffuse = Double3{1, 1, 1};
+    out.ground.diffuse = out.ground.sun = out.ground.lamps = Double3{};
+    if (ground) out.ground.diffuse = Double3{1, 1, 1};
 }
 
 /// The upper half of a float, rounded to the nearest.
@@ -66,7 +66,7 @@ float turned_sign(int moment) { return ordinate_degree(moment) % 2 == 1 ? -1.0f 
 double gather_moments(const Context& context, const Lighting& light, PathImportance& out) {
     const ImportanceParams& k = out.params;
     const std::size_t nodes = std::size_t(node_count(out.nodes.grid));
-    const float below = light.ground ? float(light.ground_albedo) : 0.0f;
+    const float below = light.ground.present ? float(light.ground.albedo) : 0.0f;
     const float lit_by_sun =
         light.sunlit ? below * std::max(light.to_sun[2], 0.0f) * (4 * kInvFourPi) : 0.0f;
     const float* const from = out.nodes.near.data();
@@ -173,7 +173,7 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
     const Lighting& light = view.lighting;
     ImportanceParams& k = out.params;
     const double sun = light.sunlit ? mean_of(light.sun_irradiance) : 0, sky = mean_of(light.sky);
-    const std::array<double, 3> shine{sun, sky, light.ground ? light.ground_albedo : -1};
+    const std::array<double, 3> shine{sun, sky, light.ground.present ? light.ground.albedo : -1};
     if (out.made && out.to_sun == light.to_sun && out.shine == shine) return Status::ok();
     out.made = false;
     // All of it runs on the host, also where a device traces.
@@ -182,13 +182,13 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
     if (out.nodes.density.empty())
         PILEUS_TRY(prepare_ordinates(context, medium, majorants, false, out.nodes));
     k.albedo = medium.optics[0].albedo[0];
-    k.sky_whole = !(sky > 0) || (is_white(medium) && !light.ground) ? 1 : 0;
+    k.sky_whole = !(sky > 0) || (is_white(medium) && !light.ground.present) ? 1 : 0;
     k.sets = k.sky_whole != 0 ? 1 : 2;
     k.sun_worth = float(sun), k.sky_worth = float(sky);
     set_phase(medium.optics[0].phase, k);
 
     Lighting units;
-    set_units(light, k.sets > 1, light.ground && light.ground_albedo > 0, units);
+    set_units(light, k.sets > 1, light.ground.present && light.ground.albedo > 0, units);
     Buffer<float> depths;
     OrdinateAsk ask;
     ask.depths = &depths;

@@ -52,12 +52,13 @@ PathInput path_input(const Context& context, const FrameView& view, const PathSt
     in.seed = state.seed;
     in.threads = context.threads;
     in.kernels = context.kernels;
-    in.max_depth = state.settings.max_depth;
+    in.rules.max_depth = state.settings.max_depth;
     in.jitter = !state.settings.centre;
-    in.guide = state.settings.guide;
-    in.sun_radius_deg = view.scene.sun.angular_radius_deg;
+    in.rules.guide = state.settings.guide;
+    in.rules.sun_radius_deg = view.scene.sun.angular_radius_deg;
     // A flux is measured by paths that seek the sun from a detector.
-    if (state.importance.made && state.camera.flux == 0) in.importance = &state.importance.params;
+    if (state.importance.made && state.camera.flux == 0)
+        in.rules.importance = &state.importance.params;
     in.parts = path_parts(view.scene.output) || view.lighting.air ||
                (path_regresses(state.filter) && view.lighting.opaque());
     return in;

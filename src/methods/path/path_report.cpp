@@ -69,7 +69,7 @@ void note_light(const FrameView& view, const PathState& state, Plan& plan) {
     else
         plan.leave_out("flights towards the sky",
                        sky_shines(light) ? "constant sky: paths that leave find it" : "no sky");
-    if (light.ground)
+    if (light.ground.present)
         plan.need("bounces off the ground");
     else
         plan.leave_out("bounces off the ground", "no ground");
@@ -150,7 +150,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
         arrays::path_sky_rows(rows));
     const auto sums = arrays::film_sums(in), squares = arrays::film_squares(in);
     add(t, sums, squares);
-    const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    const int finest = voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2;
     add(t, arrays::path_blocks(grid, state.outlined_only ? finest : state.majorants.block));
     add(t, arrays::path_samples(in));
     if (state.settings.importance) add_importance_rows(view, t);

@@ -8,8 +8,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kTwoPiD = 6.28318530717958647693;
-
 /// Row i's sine of the angle from the zenith, at its centre: above 0 in every row.
 double row_sine(const SkyMapView& map, int i) {
     return sincos_deg(360.0 * (i + 0.5) / double(map.rows_per_turn)).sine;
@@ -62,7 +60,7 @@ Status make_path_sky(const SkyMapView& map, PathSky& out) {
         }
     }
     const double per_steradian =
-        double(map.rows_per_turn) * double(columns) / (kTwoPiD * kTwoPiD * texels);
+        double(map.rows_per_turn) * double(columns) / (kTwoPi64 * kTwoPi64 * texels);
     out.view = {out.weight.data(), out.row_cdf.data(), out.column_cdf.data(), float(per_steradian)};
     return Status::ok();
 }

@@ -48,7 +48,7 @@ std::uint64_t samples_per_key(const PathInput& in) {
 
 void set_medium(const PathInput& in, Span<const float> blocks, PathParams& k) {
     const Medium& m = *in.medium;
-    k.grid = track_grid(m, blocks, in.block, in.max_events);
+    k.grid = track_grid(m, blocks, in.block, in.rules.max_events);
     for (int a = 0; a < 3; ++a) k.extent[a] = float(m.grid.size[a]) * m.grid.cell_m[a];
     k.channels = m.channels;
     k.media = m.count;
@@ -79,9 +79,9 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
         if (light.solids->coloured()) k.channels = 3;
     }
     if (light.depth != nullptr) k.camera_depth = light.depth->metres.data();
-    k.ground = light.ground ? 1 : 0;
-    k.ground_z = float(light.ground_z);
-    k.ground_albedo = float(light.ground_albedo);
+    k.ground = light.ground.present ? 1 : 0;
+    k.ground_z = float(light.ground.z);
+    k.ground_albedo = float(light.ground.albedo);
 }
 
 void set_lamps(const PathInput& in, PathParams& k) {
@@ -109,15 +109,15 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     set_light(in, scratch.sky.view, k);
     k.camera = in.camera;
     k.jitter = in.jitter ? 1 : 0;
-    k.max_depth = in.max_depth > 0 ? in.max_depth : 0x7fffffff;
+    k.max_depth = in.rules.max_depth > 0 ? in.rules.max_depth : 0x7fffffff;
     k.pixels = std::uint32_t(counted_pixels(in));
     k.parts_wanted = in.parts ? 1 : 0;
-    k.light_roulette = in.light_roulette;
+    k.light_roulette = in.rules.light_roulette;
     set_lamps(in, k);
-    k.importance = in.importance;
+    k.importance = in.rules.importance;
     if (k.sunlit == 0) return k;
-    if (in.guide) k.guide = scratch.guide;
-    if (in.sun_radius_deg > 0) set_disc(in.sun_radius_deg, k);
+    if (in.rules.guide) k.guide = scratch.guide;
+    if (in.rules.sun_radius_deg > 0) set_disc(in.rules.sun_radius_deg, k);
     return k;
 }
 

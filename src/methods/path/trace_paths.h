@@ -22,6 +22,18 @@ constexpr TrackingCosts kPathCosts{1.0, 0.25, 0.25};
 /// vertices.
 constexpr double kLampNear = 2;
 
+/// Which ways light goes, and how they are sampled.
+struct PathRules {
+    int max_depth = 0;  ///< scatterings after which light is not followed; 0: unlimited
+    std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
+    /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
+    float light_roulette = kLightRoulette;
+    bool guide = true;          ///< branches towards the sun where a phase function is peaked
+    double sun_radius_deg = 0;  ///< of the sun's disc, [0, 10]; 0: a point
+    /// Expected light that particles are split by; null: paths go one by one.
+    const ImportanceParams* importance = nullptr;
+};
+
 struct PathInput {
     const Medium* medium = nullptr;
     const Lighting* lighting = nullptr;  ///< of it sun, sky, map and ground; of lights none
@@ -32,17 +44,10 @@ struct PathInput {
     std::uint64_t seed = 0;
     int threads = 1;
     const KernelTable* kernels = nullptr;
-    int max_depth = 0;   ///< scatterings after which light is not followed; 0: unlimited
-    bool jitter = true;  ///< rays spread over their pixels; false: through the middles
-    bool parts = false;  ///< also the sun's, the singly scattered and the media's light
-    bool brief = false;  ///< films keep of parts the media's alone, and no squares
-    std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
-    /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
-    float light_roulette = kLightRoulette;
-    bool guide = true;          ///< branches towards the sun where a phase function is peaked
-    double sun_radius_deg = 0;  ///< of the sun's disc, [0, 10]; 0: a point
-    /// Expected light that particles are split by; null: paths go one by one.
-    const ImportanceParams* importance = nullptr;
+    PathRules rules;
+    bool jitter = true;             ///< rays spread over their pixels; false: through the middles
+    bool parts = false;             ///< also the sun's, the singly scattered and the media's light
+    bool brief = false;             ///< films keep of parts the media's alone, and no squares
     std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
 

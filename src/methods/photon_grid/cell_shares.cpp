@@ -54,7 +54,7 @@ Status make_cell_shares(const Medium& medium, const CellGrid& cells, Span<const 
         allocate(arrays::cell_shares(count > 1 ? cells.count() : 0, std::uint64_t(count)), shares));
     if (count < 2) return Status::ok();
     parallel_for(threads, cells.size[2], [&](std::int64_t z, int) {
-        double mass[kMostMedia];
+        double mass[kMaxMedia];
         for (int y = 0; y < cells.size[1]; ++y)
             for (int x = 0; x < cells.size[0]; ++x) {
                 const int at[3] = {x, y, int(z)};

@@ -10,13 +10,13 @@
 namespace pileus {
 namespace {
 
-constexpr int kMostMoments = kMaxBands + kMaxAxisDegrees;
+constexpr int kMaxMoments = kMaxBands + kMaxAxisDegrees;
 constexpr double kPerSphere = 0.079577471545947667884;  // 1 / 4 pi
 
 /// What the media of one place scatter, per channel.
 struct CellOptics {
     Mixture mix[3];
-    float moment[3][kMostMoments];
+    float moment[3][kMaxMoments];
 };
 
 CellOptics optics_of(const GridLightInput& in, std::size_t cell) {
@@ -64,7 +64,7 @@ Direction cell_to_camera(const GridLightInput& in, const Vec<float>& middle) {
 struct Weights {
     bool made = false;
     Direction sun{};
-    double w[kMostNumbers];
+    double w[kMaxNumbers];
 };
 
 void make_axis_weights(const GridLightInput& in, const float* moment, const Direction& to,
@@ -127,7 +127,7 @@ struct CellView {
 /// Light of one light in one cell and slot, scattered towards the camera, per unit of its colour.
 double cell_power(const GridLightInput& in, CellView& cell, std::size_t channel,
                   const PhotonSlot& slot, std::size_t light, std::uint64_t set) {
-    double sums[kMostNumbers];
+    double sums[kMaxNumbers];
     slot_sums(in, slot, light, set, sums);
     const Mixture& mix = cell.optics.mix[channel];
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
@@ -229,7 +229,7 @@ void cell_harmonics(const GridLightInput& in, const CellOptics& optics, const Ba
         const double share = double(slot.generations) / batch.generations / in.unit_m2;
         for (std::size_t c = 0; c < channels; ++c)
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
-                double sums[kMostNumbers];
+                double sums[kMaxNumbers];
                 slot_sums(in, slot, l, cell * channels + c, sums);
                 add_harmonics(in, optics, c, sums, share, l, stored, sets, out);
             }
@@ -255,7 +255,7 @@ Status light_cell_harmonics(const GridLightInput& in, const HarmonicPart& which,
     const Batch slots = batch_of(in, which.batch);
     float* part = values.data() + std::size_t(which.part) * count * numbers;
     parallel_for(in.threads, those.size[2], [&](std::int64_t z, int) {
-        double own[3 * kMostHarmonics];
+        double own[3 * kMaxHarmonics];
         for (std::size_t n = std::size_t(z) * nx * ny; n < (std::size_t(z) + 1) * nx * ny; ++n) {
             const std::size_t x = n % nx + std::size_t(those.first[0]);
             const std::size_t y = n / nx % ny + std::size_t(those.first[1]);

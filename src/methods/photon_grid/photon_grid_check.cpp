@@ -24,7 +24,7 @@ Status check_closure(const Scene& scene) {
     if (closure == GridClosure::kSh) return Status::ok();
     const std::string where = scene.file + ": photon_grid.closure: ";
     bool periodic = false;
-    for (const MediumSettings& m : scene.media) periodic |= m.periodic;
+    for (const MediumSettings& m : scene.media) periodic |= m.box.periodic;
     if (periodic && !scene.camera.orthographic)
         return Status::bad_input(where +
                                  "not for periodic media, allowed: sh, or an orthographic camera");

@@ -107,14 +107,14 @@ std::uint64_t planned_generations(const PhotonGridState& state) {
 
 CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
                       const Medium& medium) {
-    constexpr double kPhotonsPerCell = 32, kFewest = 4096, kMost = 0x1p19;
+    constexpr double kPhotonsPerCell = 32, kFewest = 4096, kMax = 0x1p19;
     CellGrid cells;
     if (settings.cells[0] > 0) {
         for (std::size_t a = 0; a < 3; ++a) cells.size[a] = settings.cells[a];
         return cells;
     }
     double wanted = double(photons) / kPhotonsPerCell;
-    wanted = wanted < kFewest ? kFewest : (wanted > kMost ? kMost : wanted);
+    wanted = wanted < kFewest ? kFewest : (wanted > kMax ? kMax : wanted);
     const auto& e = medium.extent_m;
     double spacing = 0, fewest[3];
     for (std::size_t a = 0; a < 3; ++a) {

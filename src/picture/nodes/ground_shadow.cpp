@@ -31,7 +31,7 @@ Reach reach_of(const Medium& medium, double ground_z, const std::array<float, 3>
 
 std::uint64_t most_ground_nodes(const Medium& medium, const Lighting& lighting,
                                 std::uint64_t pixels) {
-    const bool wanted = lighting.ground && !medium.grid.periodic && !medium.grid.constant;
+    const bool wanted = lighting.ground.present && !medium.grid.periodic && !medium.grid.constant;
     return wanted ? pixels / kPixelsPerNode : 0;
 }
 
@@ -43,9 +43,9 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
     const std::uint64_t most = most_ground_nodes(medium, lighting, whole);
     NodeGrid nodes{};
     std::uint64_t count = 0;
-    if (most > 0 && lighting.sunlit && medium.sigma > 0 && medium.extent_m[2] > lighting.ground_z) {
-        const Reach x = reach_of(medium, lighting.ground_z, lighting.to_sun, 0),
-                    y = reach_of(medium, lighting.ground_z, lighting.to_sun, 1);
+    if (most > 0 && lighting.sunlit && medium.sigma > 0 && medium.extent_m[2] > lighting.ground.z) {
+        const Reach x = reach_of(medium, lighting.ground.z, lighting.to_sun, 0),
+                    y = reach_of(medium, lighting.ground.z, lighting.to_sun, 1);
         if (x.count * y.count <= double(most)) {
             const Reach reach[2] = {x, y};
             count = std::uint64_t(x.count) * std::uint64_t(y.count);
@@ -59,7 +59,7 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
                 if (origin != out.origin[a]) out.slices.held.clear();
                 out.origin[a] = origin;
             }
-            out.origin[2] = float(lighting.ground_z - 0.5);  // the row's middle
+            out.origin[2] = float(lighting.ground.z - 0.5);  // the row's middle
         }
     }
     // Room for any sun; beside a part of a picture, whose size it has not, for this one.
@@ -70,9 +70,9 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
     PILEUS_TRY(allocate_once(arrays::ground_shadow(room), out.depth));
     for (int a = 0; a < 2; ++a)
         if (nodes.size[a] != out.nodes.size[a]) out.slices.held.clear();
-    if (out.ground_z != lighting.ground_z) out.slices.held.clear();
+    if (out.ground_z != lighting.ground.z) out.slices.held.clear();
     out.nodes = nodes;
-    out.ground_z = lighting.ground_z;
+    out.ground_z = lighting.ground.z;
     const std::vector<int> due = follow_sun(turn, out.slices);
     if (nodes.size[0] == 0) return Status::ok();
     const StageClock clock(context, "shadow");

@@ -14,14 +14,14 @@
 namespace pileus {
 namespace {
 
-constexpr double kFewestNodes = 1u << 17, kMostNodes = 1u << 20;
+constexpr double kFewestNodes = 1u << 17, kMaxNodes = 1u << 20;
 constexpr double kVoxelsPerNode = 8;
 
 }  // namespace
 
 NodeGrid lamp_node_grid(const Medium& medium) {
     double budget = double(voxel_count(medium.grid)) / kVoxelsPerNode;
-    budget = budget < kFewestNodes ? kFewestNodes : budget > kMostNodes ? kMostNodes : budget;
+    budget = budget < kFewestNodes ? kFewestNodes : budget > kMaxNodes ? kMaxNodes : budget;
     double spacing = 0;
     for (double edge : medium.extent_m) spacing = edge > spacing ? edge : spacing;
     // Flat boxes have one node at least along each axis.
@@ -136,9 +136,9 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
         if (lamp.radius > 0) k.spheres = 1;
     k.nodes = nodes.grid;
     k.cut = float(cut);
-    k.ground = lighting.ground ? 1 : 0;
-    k.ground_z = float(lighting.ground_z);
-    k.ground_albedo = float(lighting.ground_albedo);
+    k.ground = lighting.ground.present ? 1 : 0;
+    k.ground_z = float(lighting.ground.z);
+    k.ground_albedo = float(lighting.ground.albedo);
     return k;
 }
 

@@ -197,7 +197,7 @@ int sky_light_levels(const SkyParams& sky, int bits) {
     int levels = 1;
     for (double reach = reach_nodes(bits) * spacing_of(sky, bits); reach < far; reach *= 2)
         ++levels;
-    return std::min(levels, kMostSkyLightLevels);
+    return std::min(levels, kMaxSkyLightLevels);
 }
 
 Status reserve_sky_light(const SkyParams& sky, int bits, SkyLight& out) {

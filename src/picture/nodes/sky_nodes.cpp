@@ -34,10 +34,10 @@ struct Radiances {
 
 void set_constant(const Lighting& light, Radiances& r) {
     for (int p = 0; p < kParts; ++p) {
-        const bool down = light.ground && looks_down(p);
+        const bool down = light.ground.present && looks_down(p);
         r.share[down ? 1 : 0][p] = 1.0 / kParts;
     }
-    const Double3 ground = light.ground_radiance();
+    const Double3 ground = light.ground.radiance();
     for (std::size_t c = 0; c < 3; ++c) {
         r.colour[0][c] = light.sky[c];
         r.colour[1][c] = ground[c];
@@ -45,9 +45,9 @@ void set_constant(const Lighting& light, Radiances& r) {
 }
 
 void set_map(const Lighting& light, Radiances& r) {
-    const Double3 ground = light.ground_radiance();
+    const Double3 ground = light.ground.radiance();
     for (int p = 0; p < kParts; ++p) {
-        const bool down = light.ground && looks_down(p);
+        const bool down = light.ground.present && looks_down(p);
         double sum[3] = {};
         for (int i = 0; i < kWithin * kWithin && !down; ++i) {
             const std::array<float, 3> d =
@@ -120,7 +120,7 @@ void see_parts(const Octaves& o, float left, const Absorption& by, std::size_t a
 /// Three mean cosines of an octave's phase function over all media, at most 1, so that none of its
 /// first two bands is negative.
 struct Turns {
-    float most[kMostOctaves] = {};
+    float most[kMaxOctaves] = {};
     float albedo = 1;  ///< what an octave keeps of the one before
 };
 
@@ -217,8 +217,8 @@ NodeGrid sky_node_grid(const Medium& medium) {
 
 int sky_node_sets(const Lighting& light) {
     if (light.map.columns > 0) return 3;
-    const Double3 sum = light.sky + light.ground_radiance();
-    return !(sum.x + sum.y + sum.z > 0) ? 0 : light.ground ? 2 : 1;
+    const Double3 sum = light.sky + light.ground.radiance();
+    return !(sum.x + sum.y + sum.z > 0) ? 0 : light.ground.present ? 2 : 1;
 }
 
 Status make_sky_nodes(const Context& context, const Medium& medium, const Majorants& majorants,

@@ -34,7 +34,7 @@ inline Array<float> sun_depth(std::uint64_t nodes, Stage last) {
 }  // namespace arrays
 
 /// Fills `out`, whose memory is used again where it fits. `to_sun` is any direction but 0. A
-/// periodic medium under a sun that is lower than one voxel in kMostShift gets rays even where a
+/// periodic medium under a sun that is lower than one voxel in kMaxShift gets rays even where a
 /// sweep was asked for. kLimit: out of memory. Needs kernels of the host.
 Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out);

@@ -11,7 +11,7 @@ namespace pileus {
 namespace {
 
 bool are_near(const std::vector<SunDirection>& suns, const SunDirection& sun) {
-    const double least = sincos_deg(kMostSliceDeg).cosine;
+    const double least = sincos_deg(kMaxSliceDeg).cosine;
     for (const SunDirection& s : suns) {
         double cosine = 0;
         for (std::size_t a = 0; a < 3; ++a) cosine += double(s[a]) * double(sun[a]);

@@ -23,7 +23,7 @@ struct SunTurn {
 };
 
 /// The most that settings may ask for (light_refresh).
-constexpr std::size_t kMostSlices = 64;
+constexpr std::size_t kMaxSlices = 64;
 
 /// Slice s is of the sun of the last frame whose number is s modulo the number of slices. So what
 /// a frame has depends on the suns of that many frames alone, and a sun that stands is everywhere
@@ -36,13 +36,13 @@ struct SunSlices {
 
     /// Room for as many slices as there may be.
     void reserve() {
-        suns.reserve(kMostSlices);
-        held.reserve(kMostSlices);
+        suns.reserve(kMaxSlices);
+        held.reserve(kMaxSlices);
     }
 };
 
 /// Farthest that a slice's sun may be from the frame's, degrees; else all are of the frame's.
-constexpr double kMostSliceDeg = 1;
+constexpr double kMaxSliceDeg = 1;
 
 /// Takes up the frame's sun; the slices that are to be made for `SunSlices::held` now.
 std::vector<int> follow_sun(const SunTurn& turn, SunSlices& slices);

@@ -178,7 +178,7 @@ bool layer_taps(const Grid& grid, const std::array<float, 3>& to_sun, double ext
                 std::vector<SweepTap>& inner, std::vector<SweepTap>& top) {
     const std::array<double, 3> d = in_voxels(grid, to_sun);
     const double along = magnitude(d[2]);
-    if (magnitude(d[0]) + magnitude(d[1]) > kMostShift * along) return false;
+    if (magnitude(d[0]) + magnitude(d[1]) > kMaxShift * along) return false;
     const double slope[2] = {d[0] / along, d[1] / along};
     TapMap below, first;
     add_densities(grid, slope, false, extinction_per_m / along, below);

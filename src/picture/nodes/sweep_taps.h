@@ -18,9 +18,9 @@ SweepParams sweep_params(const Grid& grid, const std::array<float, 3>& to_sun,
                          double extinction_per_m, int threads);
 
 /// A periodic grid: the neighbours of nodes below the top slice, and of those in it. Slices lie
-/// along z; false where the sun is so low that a ray runs over more than kMostShift voxels between
+/// along z; false where the sun is so low that a ray runs over more than kMaxShift voxels between
 /// two of them.
-constexpr double kMostShift = 256;
+constexpr double kMaxShift = 256;
 bool layer_taps(const Grid& grid, const std::array<float, 3>& to_sun, double extinction_per_m,
                 std::vector<SweepTap>& inner, std::vector<SweepTap>& top);
 

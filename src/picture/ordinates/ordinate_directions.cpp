@@ -11,7 +11,7 @@
 namespace pileus {
 namespace {
 
-constexpr double kSphere = 4 * 3.14159265358979323846;
+constexpr double kSphere = 4 * kPi64;
 /// Gauss's two points on [0, 1], of equal weight.
 constexpr double kHeight[2] = {0.21132486540518711775, 0.78867513459481288225};
 constexpr int kAzimuths = 8;
@@ -139,7 +139,7 @@ namespace {
 /// Whether the ground has sets of its own: where light on it is wanted, its radiance is told by
 /// theirs.
 bool ground_apart(const Lighting& light, bool ground) {
-    return ground && light.ground && light.ground_albedo > 0;
+    return ground && light.ground.present && light.ground.albedo > 0;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ int ordinate_sets(const Medium& medium, const Lighting& light, bool ground) {
     const bool apart = ground_apart(light, ground);
     if (light.map.columns > 0 || medium.channels > 1) return 3 + (apart ? 2 * medium.channels : 0);
     return int(light.sunlit) + int(any_light(light.sky)) +
-           (apart ? 2 : int(light.ground && any_light(light.ground_radiance()))) +
+           (apart ? 2 : int(light.ground.present && any_light(light.ground.radiance()))) +
            (!light.lamps.empty() || emits(medium) ? 3 : 0);
 }
 
@@ -194,7 +194,7 @@ void add_own_lights(const OrdinateAsk& ask, std::vector<OrdinateSet>& out) {
 void set_ordinate_lights(const Medium& medium, const Lighting& light, const OrdinateAsk& ask,
                          std::vector<OrdinateSet>& out) {
     out.clear();
-    const Double3 ground = light.ground_radiance();
+    const Double3 ground = light.ground.radiance();
     const Double3 sun = light.sunlit ? light.sun_irradiance : Double3{};
     const bool map = light.map.columns > 0, apart = ground_apart(light, ask.ground);
     const auto add_ground = [&](int channel, OrdinateFaces faces) {
@@ -214,7 +214,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
     if (map || medium.channels > 1) {
         std::array<std::array<double, 3>, kOrdinates> enters{};
         for (int j = 0; j < kOrdinates; ++j) {
-            const bool down = light.ground && goes_up(j);
+            const bool down = light.ground.present && goes_up(j);
             if (map && !down) enters[std::size_t(j)] = seen_in_map(light.map, j);
             for (std::size_t c = 0; c < 3 && (down || !map); ++c)
                 enters[std::size_t(j)][c] = !down ? light.sky[c] : apart ? 0 : ground[c];
@@ -240,10 +240,10 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
         out.push_back(set);
     };
     if (light.sunlit) add(light.sun_irradiance, 1, 0, 0);
-    if (any_light(light.sky)) add(light.sky, 0, 1, light.ground ? 0 : 1);
+    if (any_light(light.sky)) add(light.sky, 0, 1, light.ground.present ? 0 : 1);
     if (apart)
         add_grounds(0);
-    else if (light.ground && any_light(ground))
+    else if (light.ground.present && any_light(ground))
         add_ground(0, OrdinateFaces::kAll);
     add_own_lights(ask, out);
 }

@@ -184,7 +184,8 @@ void set_sun_rest(OrdinateNodes& nodes) {
 
 bool lights_ground(const Medium& medium, const Lighting& lighting, const OrdinateAsk& ask,
                    const OrdinateCells& nodes) {
-    return ask.ground && lighting.ground && !nodes.ring && lighting.ground_z < medium.extent_m[2];
+    return ask.ground && lighting.ground.present && !nodes.ring &&
+           lighting.ground.z < medium.extent_m[2];
 }
 
 std::uint64_t max_ground_cells(const Medium& medium) {
@@ -207,15 +208,15 @@ Status place_ground(const Context& context, const Medium& medium, const Lighting
     NodeGrid map{};
     map.size[2] = 1;
     map.per_metre[2] = 1;
-    const double reach = nodes.periodic ? 0 : kReach * (medium.extent_m[2] - lighting.ground_z);
+    const double reach = nodes.periodic ? 0 : kReach * (medium.extent_m[2] - lighting.ground.z);
     for (int a = 0; a < 2; ++a) {
         map.size[a] = nodes.periodic ? nodes.grid.size[a] : kCells;
         map.per_metre[a] = float(map.size[a] / (medium.extent_m[a] + 2 * reach));
         ground.origin[a] = float(-reach);
     }
-    if (ground.map.size[0] == 0 || ground.z != lighting.ground_z) ground.known.fill(false);
+    if (ground.map.size[0] == 0 || ground.z != lighting.ground.z) ground.known.fill(false);
     ground.map = map;
-    ground.z = lighting.ground_z;
+    ground.z = lighting.ground.z;
     const std::uint64_t cells = node_count(map), sets = nodes.sets.size();
     if (ground.light.size() < cells * sets) ground.known.fill(false);
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, sets), ground.light));
@@ -279,7 +280,7 @@ Status light_ground(const Context& context, const Medium& medium, const Lighting
 Status mix_ground(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, OrdinateNodes& nodes) {
     OrdinateGround& ground = nodes.ground;
-    const double albedo = lighting.ground_albedo;
+    const double albedo = lighting.ground.albedo;
     const std::size_t cells = std::size_t(node_count(ground.map));
     double sunlight[3][2] = {};
     if (lighting.sunlit)
@@ -291,8 +292,8 @@ Status mix_ground(const Context& context, const Medium& medium, const Majorants&
         // Radiances of the parts are what arrives there of other light, and of both.
         double arrives[2], back[2][2] = {};
         for (std::size_t f = 0; f < 2; ++f) {
-            arrives[f] = lighting.ground_diffuse[c] + lighting.ground_lamps[c] +
-                         lighting.ground_sun[c] * sunlight[c][f];
+            arrives[f] = lighting.ground.diffuse[c] + lighting.ground.lamps[c] +
+                         lighting.ground.sun[c] * sunlight[c][f];
             for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
                 const OrdinateSet& set = nodes.sets[s];
                 if (!set.ground)

@@ -28,7 +28,7 @@ OrdinateSizes lit_ordinate_sizes(const Medium& medium, const Lighting& lighting,
     out.sets = std::uint64_t(ordinate_sets(medium, lighting, true));
     out.together = true;
     out.own = !lighting.lamps.empty() || emits(medium);
-    if (lighting.ground) out.ground = max_ground_cells(medium);
+    if (lighting.ground.present) out.ground = max_ground_cells(medium);
     return out;
 }
 

@@ -70,7 +70,7 @@ struct OrdinateCells {
     /// count as filled.
     bool ring = false;
     int media = 1;
-    OrdinateOptics optics[kMostMedia][3];
+    OrdinateOptics optics[kMaxMedia][3];
     Buffer<float> density;        ///< [node]
     Buffer<std::int32_t> filled;  ///< nodes that hold medium; others have no light of their own
     Buffer<float> parts;          ///< [medium][node]: of the density; of several media alone

@@ -14,7 +14,7 @@
 namespace pileus {
 namespace {
 
-constexpr int kMostChecked = 10000;
+constexpr int kMaxChecked = 10000;
 
 /// Of keys that have a track: a fault at the first of them.
 class Keys {
@@ -64,7 +64,7 @@ void check_cameras(SceneCheck& check, Keys& keys) {
     if (!keys.have(Track::kPosition) && !keys.have(Track::kTarget)) return;
     if (scene.view_files.position_by_place || scene.view_files.target_by_place) return;
     // Of longer films some frames, so that no scene takes long to check.
-    const int step = 1 + (scene.animation.frames - 1) / kMostChecked;
+    const int step = 1 + (scene.animation.frames - 1) / kMaxChecked;
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
         const Camera c = camera_at(scene.animation, scene.camera, frame);
         const std::string at = "frame " + std::to_string(frame) + ", ";
@@ -91,12 +91,12 @@ void check_moved_media(SceneCheck& check, Keys& keys) {
     double low = 0;
     bool known = false;
     for (const MediumSettings& medium : scene.media) {
-        if (!medium.has_bounds) continue;
-        low = known ? std::min(low, medium.bounds_m[0][2]) : medium.bounds_m[0][2];
+        if (!medium.box.has_bounds) continue;
+        low = known ? std::min(low, medium.box.bounds_m[0][2]) : medium.box.bounds_m[0][2];
         known = true;
     }
     if (!known || !keys.have(Track::kOffset)) return;
-    const int step = 1 + (scene.animation.frames - 1) / kMostChecked;
+    const int step = 1 + (scene.animation.frames - 1) / kMaxChecked;
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
         const double moved = placement_at(scene, frame).offset_m.z;
         if (is_below_ground(scene.ground, low + moved, moved))

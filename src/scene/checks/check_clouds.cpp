@@ -100,10 +100,10 @@ struct CloudCheck {
     void count(const Node& at, const char* key) const {
         std::size_t all = clouds.places.size();
         for (const CloudScatter& s : clouds.scatters) all += std::size_t(s.count);
-        if (all > kMostClouds)
+        if (all > kMaxClouds)
             check.faults.add(at.at, key,
                              "too many clouds in all, " + std::to_string(all) +
-                                 ", allowed: up to " + std::to_string(kMostClouds));
+                                 ", allowed: up to " + std::to_string(kMaxClouds));
     }
 
     /// What a sky with clouds has not.

@@ -31,7 +31,7 @@ public:
                       ", allowed: 0, or such that 4 * 2^octaves is at most cells, " +
                       std::to_string(detail_.cells));
         if (!detail_.present()) return;
-        if (!medium_.transfer.empty())
+        if (!medium_.optics.transfer.empty())
             return fault(*tile, "tile_m",
                          "not beside transfer, " + value_text(*tile) + ", allowed: left out");
         if (const Support* no = refused(check_.scene, Feature::kDetailBaked))
@@ -72,7 +72,7 @@ private:
             why = no->text;
         else if (scene.media.size() > 1)
             why = "only one medium can be marched with detail";
-        else if (medium_.constant)
+        else if (medium_.box.constant)
             why = "cells of constant density are not marched with detail";
         else if (!scene.lights.empty())
             why = "the light of [[light]] is not marched with detail";

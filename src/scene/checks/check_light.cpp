@@ -74,7 +74,7 @@ private:
                    "method path, or a scene without [[solid]]");
         bool periodic = false, direct = false;
         for (const MediumSettings& m : scene.media) {
-            periodic = periodic || m.periodic;
+            periodic = periodic || m.box.periodic;
             direct = direct || m.sky.evaluate == SkyEvaluation::kDirect;
         }
         if (periodic) refuse("with a periodic medium", "boundary = \"open\"");

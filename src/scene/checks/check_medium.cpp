@@ -64,7 +64,7 @@ private:
 
     bool set_file(const Node& node, const char* key) {
         if (!node.text.empty())
-            return check_path(check_, node, (path_ + key).c_str(), medium_.file);
+            return check_path(check_, node, (path_ + key).c_str(), medium_.source.file);
         fault(node, key, "empty, \"\", allowed: the path of a file");
         return false;
     }
@@ -72,9 +72,9 @@ private:
     /// Keys of a file: its format must be known, and raw numbers need a type, a size and a place.
     void file_keys(const Node& density) {
         if (check_.key(path_ + "format") == nullptr) format_by_name(density);
-        const VolumeFormat* format = volume_format_named(medium_.format);
+        const VolumeFormat* format = volume_format_named(medium_.source.format);
         const Node* first = check_.key(path_ + "density.first_frame");
-        if (first != nullptr && !is_sequence(medium_.file))
+        if (first != nullptr && !is_sequence(medium_.source.file))
             fault(*first, "density.first_frame",
                   "for a sequence only, " + value_text(*first) +
                       ", allowed: with a # in the file's name");
@@ -101,7 +101,7 @@ private:
 
     /// Weather data alone has variables, times and a geometry.
     void weather_keys_of() {
-        const VolumeFormat* format = volume_format_named(medium_.format);
+        const VolumeFormat* format = volume_format_named(medium_.source.format);
         if (format != nullptr && format->is_weather) {
             check_weather();
             return;
@@ -121,7 +121,7 @@ private:
 
     /// Particles alone have a unit and radii; their box is as large as they are.
     void particle_keys_of() {
-        if (!is_particle_format(medium_.format)) {
+        if (!is_particle_format(medium_.source.format)) {
             refuse(particle_keys(), "files of particles");
             return;
         }
@@ -132,7 +132,7 @@ private:
         };
         refused("bounds_m", check_.key(path_ + "bounds_m"));
         refused("transfer", check_.key(path_ + "transfer"));
-        if (medium_.periodic) refused("boundary", check_.key(path_ + "boundary"));
+        if (medium_.box.periodic) refused("boundary", check_.key(path_ + "boundary"));
     }
 
     /// One size of ice crystals, in one way.
@@ -170,7 +170,7 @@ private:
     void grid_name() {
         const Node* beside = check_.valid_key(path_ + "grid");
         const Node* within = check_.valid_key(path_ + "density.grid");
-        const VolumeFormat* format = volume_format_named(medium_.format);
+        const VolumeFormat* format = volume_format_named(medium_.source.format);
         for (const Node* node : {beside, within})
             if (node != nullptr && (format == nullptr || !format->has_grids))
                 fault(*node, node == beside ? "grid" : "density.grid",
@@ -185,16 +185,16 @@ private:
         const bool raw_keys = check_.key(path_ + "density.type") != nullptr ||
                               check_.key(path_ + "density.size") != nullptr;
         if (raw_keys) {
-            medium_.format = "raw";
+            medium_.source.format = "raw";
             return;
         }
-        if (const VolumeFormat* format = volume_format_of(medium_.file)) {
-            medium_.format = format->name;
+        if (const VolumeFormat* format = volume_format_of(medium_.source.file)) {
+            medium_.source.format = format->name;
             return;
         }
         // Bare numbers are told by no ending, only by what the scene says of them.
         fault(density, "density",
-              "unknown kind of file, " + quote_text(medium_.file) +
+              "unknown kind of file, " + quote_text(medium_.source.file) +
                   ", allowed: a name that ends in " + volume_format_extensions() +
                   "; or beside it the key format, one of " + volume_format_names() +
                   "; or density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } "
@@ -215,7 +215,7 @@ private:
 
     /// A file in physical units takes a factor; everything else takes the extinction at density 1.
     void extinction() {
-        const VolumeFormat* format = volume_format_named(medium_.format);
+        const VolumeFormat* format = volume_format_named(medium_.source.format);
         const bool physical = format != nullptr && format->in_extinction;
         const Node* per_m = check_.key(path_ + "extinction_per_m");
         const Node* scale = check_.key(path_ + "extinction_scale");
@@ -226,8 +226,8 @@ private:
                 fault(*scale, "extinction_scale",
                       "given twice, " + value_text(*scale) +
                           ", allowed: extinction_per_m or extinction_scale");
-            if (per_m != nullptr) medium_.extinction_scale = medium_.extinction_per_m;
-            medium_.extinction_per_m = 0;
+            if (per_m != nullptr) medium_.optics.extinction_scale = medium_.optics.extinction_per_m;
+            medium_.optics.extinction_per_m = 0;
             return;
         }
         if (physical && per_m != nullptr)
@@ -239,7 +239,7 @@ private:
                   "for files that hold extinction only, " + value_text(*scale) +
                       ", allowed: left out, and the key extinction_per_m");
         // A kind of cloud has brought it.
-        const bool known = medium_.extinction_per_m > 0;
+        const bool known = medium_.optics.extinction_per_m > 0;
         if (!physical && check_.lacks(path_ + "extinction_per_m") && !known)
             fault(*check_.key(path_.substr(0, path_.size() - 1)), "extinction_per_m",
                   "missing, nothing, allowed: number in [0, 1e+12]");
@@ -248,16 +248,18 @@ private:
     /// Emission is kept over extinction: the two go together.
     void emission() {
         const Node* node = check_.valid_key(path_ + "emission");
-        if (node == nullptr || medium_.emission == Float3{0, 0, 0}) return;
+        if (node == nullptr || medium_.optics.emission == Float3{0, 0, 0}) return;
         const auto refuse = [&](const std::string& what, const std::string& allowed) {
             fault(*node, "emission",
                   what + ", " + value_text(*node) + ", allowed: left out, or " + allowed);
         };
         const Scene& scene = check_.scene;
-        const VolumeFormat* format = volume_format_named(medium_.format);
+        const VolumeFormat* format = volume_format_named(medium_.source.format);
         const bool physical = format != nullptr && (format->in_extinction || format->is_particles);
-        const double per_m = physical ? medium_.extinction_scale : medium_.extinction_per_m;
-        const auto most = std::max({medium_.emission[0], medium_.emission[1], medium_.emission[2]});
+        const double per_m =
+            physical ? medium_.optics.extinction_scale : medium_.optics.extinction_per_m;
+        const auto most = std::max(
+            {medium_.optics.emission[0], medium_.optics.emission[1], medium_.optics.emission[2]});
         constexpr const char* kNotYet = " in this version";
         const Support* no = refused(scene, Feature::kEmission);
         if (no != nullptr && !has_camera_closure(scene))
@@ -292,7 +294,7 @@ private:
                       "for " + density_names([](const DensityRow& row) { return row.takes_seed; }) +
                           " only, " + value_text(*node) + ", allowed: left out");
         if (const Node* node = check_.valid_key(path_ + "resolution"))
-            if (least(medium_.resolution) < made.least_cells)
+            if (least(medium_.box.resolution) < made.least_cells)
                 fault(*node, "resolution",
                       std::string("too coarse for ") + made.name + ", " + value_text(*node) +
                           ", allowed: at least " + std::to_string(made.least_cells) +
@@ -315,7 +317,7 @@ private:
         const Node* node = check_.valid_key(path_ + "bounds_m");
         const Ground& ground = check_.scene.ground;
         if (node == nullptr || !ground.present) return;
-        const double lowest = medium_.bounds_m[0][2];
+        const double lowest = medium_.box.bounds_m[0][2];
         if (is_below_ground(ground, lowest, 0))
             fault(*node, "bounds_m", below_ground_text(ground, lowest, 0));
     }

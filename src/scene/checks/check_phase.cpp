@@ -12,7 +12,7 @@ class PhaseCheck {
 public:
     PhaseCheck(SceneCheck& check, std::size_t index)
         : check_(check),
-          phase_(check.scene.media[index].phase),
+          phase_(check.scene.media[index].optics.phase),
           path_("medium." + std::to_string(index) + ".") {}
 
     void run() {

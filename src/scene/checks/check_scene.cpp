@@ -18,9 +18,9 @@ namespace {
 void check_places(SceneCheck& check) {
     bool weather = false;
     for (const MediumSettings& medium : check.scene.media) {
-        const bool by_name = medium.format.empty() && !medium.file.empty();
-        const VolumeFormat* format =
-            by_name ? volume_format_of(medium.file) : volume_format_named(medium.format);
+        const bool by_name = medium.source.format.empty() && !medium.source.file.empty();
+        const VolumeFormat* format = by_name ? volume_format_of(medium.source.file)
+                                             : volume_format_named(medium.source.format);
         weather = weather || (format != nullptr && format->is_weather);
     }
     for (const char* name : {"camera.position_", "camera.target_"}) {
@@ -158,8 +158,8 @@ void check_output(SceneCheck& check) {
 void fill_paper_defaults(SceneCheck& check) {
     CollectorSettings& settings = check.scene.collectors;
     if (!settings.paper) return;
-    if (check.key("collectors.display") == nullptr) settings.billboards = true;
-    if (check.key("collectors.sampler") == nullptr) settings.rejection_sampler = true;
+    if (check.key("collectors.display") == nullptr) settings.display.billboards = true;
+    if (check.key("collectors.sampler") == nullptr) settings.placement.rejection_sampler = true;
     if (check.key("collectors.first_order_split") == nullptr) settings.first_order_split = false;
 }
 
@@ -168,7 +168,7 @@ void fill_paper_defaults(SceneCheck& check) {
 void check_periodic(SceneCheck& check) {
     const Scene& scene = check.scene;
     bool periodic = false;
-    for (const MediumSettings& m : scene.media) periodic |= m.periodic;
+    for (const MediumSettings& m : scene.media) periodic |= m.box.periodic;
     if (!periodic || !is_of_collectors(method_column(scene))) return;
     const CollectorSettings& c = scene.collectors;
     const auto refuse = [&](const char* key, const char* value, const char* what,
@@ -181,9 +181,9 @@ void check_periodic(SceneCheck& check) {
         refuse("collectors.display", "\"billboards\"", no->text, no->allowed);
     constexpr const char* kWhat = "not for periodic media";
     constexpr const char* kAllowed = "sh, or an orthographic camera";
-    if (!scene.camera.orthographic && c.lobe_closure)
+    if (!scene.camera.orthographic && c.closure.lobe)
         refuse("collectors.closure", "\"lobe\"", kWhat, kAllowed);
-    if (!scene.camera.orthographic && c.camera_closure)
+    if (!scene.camera.orthographic && c.closure.camera)
         refuse("collectors.closure", "\"camera\"", kWhat, kAllowed);
 }
 
@@ -191,8 +191,8 @@ void check_periodic(SceneCheck& check) {
 void check_compositor(SceneCheck& check) {
     const CollectorSettings& settings = check.scene.collectors;
     const Node* node = check.key("collectors.compositor");
-    if (settings.compositor == Compositor::kBuiltin || node == nullptr) return;
-    if (!settings.billboards)
+    if (settings.display.compositor == Compositor::kBuiltin || node == nullptr) return;
+    if (!settings.display.billboards)
         check.faults.add(node->at, "collectors.compositor",
                          "draws billboards only, " + value_text(*node) +
                              ", allowed: builtin, or display = \"billboards\"");
@@ -206,7 +206,7 @@ void check_compositor(SceneCheck& check) {
 void check_node_filter(SceneCheck& check) {
     const CollectorSettings& settings = check.scene.collectors;
     const Node* node = check.key("collectors.node_filter");
-    if (!settings.guided_nodes || !settings.billboards || node == nullptr) return;
+    if (!settings.display.guided_nodes || !settings.display.billboards || node == nullptr) return;
     check.faults.add(node->at, "collectors.node_filter",
                      "filters nodes of the march, which billboards have not, " + value_text(*node) +
                          ", allowed: surroundings, or display = \"march\"");
@@ -216,8 +216,8 @@ void check_node_filter(SceneCheck& check) {
 void check_directions(SceneCheck& check) {
     const CollectorSettings& c = check.scene.collectors;
     const Node* node = check.key("collectors.directions");
-    if (c.directions != NodeDirections::kAll || node == nullptr) return;
-    if (c.billboards || c.lobe_closure || c.camera_closure)
+    if (c.display.directions != NodeDirections::kAll || node == nullptr) return;
+    if (c.display.billboards || c.closure.lobe || c.closure.camera)
         check.faults.add(
             node->at, "collectors.directions",
             "needs bands that are marched through, " + value_text(*node) +

@@ -25,7 +25,7 @@ public:
         layer();
         sizes();
         evaluation();
-        if (medium_.periodic && medium_.has_bounds) periods();
+        if (medium_.box.periodic && medium_.box.has_bounds) periods();
     }
 
 private:
@@ -58,11 +58,11 @@ private:
         set("top_fall", sky_.top_fall, type.top_fall);
         set("rounding", sky_.rounding, type.rounding);
         set("base_density", sky_.base_density, type.base_density);
-        if (check_.key(path_ + "extinction_per_m") == nullptr && medium_.transfer.empty())
-            medium_.extinction_per_m = type.extinction_per_m;
+        if (check_.key(path_ + "extinction_per_m") == nullptr && medium_.optics.transfer.empty())
+            medium_.optics.extinction_per_m = type.extinction_per_m;
         if (check_.key(path_ + "phase") == nullptr && type.effective_radius_um > 0) {
-            medium_.phase.type = "cloud";
-            medium_.phase.numbers["effective_radius_um"] = type.effective_radius_um;
+            medium_.optics.phase.type = "cloud";
+            medium_.optics.phase.numbers["effective_radius_um"] = type.effective_radius_um;
         }
     }
 
@@ -120,13 +120,14 @@ private:
     /// The noise itself is marched where one sky is all there is; nodes of sunlight have a box.
     void evaluation() {
         const Scene& scene = check_.scene;
-        const RaymarchLightKind light = scene.raymarch.light;
+        const RaymarchLightKind light = scene.raymarch.light.kind;
         const bool marched =
             light == RaymarchLightKind::kAuto || light == RaymarchLightKind::kMarch;
-        const bool boxed = medium_.has_bounds && !medium_.periodic;
+        const bool boxed = medium_.box.has_bounds && !medium_.box.periodic;
         const bool can = refused(scene, Feature::kSkyInPlace) == nullptr &&
                          scene.media.size() == 1 && (marched || boxed) &&
-                         medium_.transfer.empty() && !medium_.constant && !medium_.detail.present();
+                         medium_.optics.transfer.empty() && !medium_.box.constant &&
+                         !medium_.detail.present();
         if (sky_.evaluate == SkyEvaluation::kDirect && !can)
             fault("evaluate",
                   "not here, \"direct\", allowed: \"grid\", or method raymarch with this medium "
@@ -150,7 +151,7 @@ private:
 
     void period(const char* key, double tile_m) {
         for (std::size_t a = 0; a < 2; ++a) {
-            const double edge = medium_.bounds_m[1][a] - medium_.bounds_m[0][a];
+            const double edge = medium_.box.bounds_m[1][a] - medium_.box.bounds_m[0][a];
             const double times = edge / tile_m, whole = std::floor(times + 0.5);
             if (whole >= 1 && std::fabs(times - whole) <= 1e-6 * whole) continue;
             return fault(key, "does not divide the box of boundary \"periodic\", " +

@@ -99,7 +99,7 @@ constexpr KeyRow kPlaceRows[] = {
 };
 constexpr KeyRow kScatterRows[] = {
     {"kinds", KeyKind::kTexts, any(), "", ""},
-    {"count", KeyKind::kInteger, from_to(1, double(kMostClouds)), "", "", kRequired},
+    {"count", KeyKind::kInteger, from_to(1, double(kMaxClouds)), "", "", kRequired},
     {"seed", KeyKind::kInteger, from_to(0, 0x1p63), "", ""},
     {"near_m", KeyKind::kNumber, from_to(1, 1e6), "m", ""},
     {"far_m", KeyKind::kNumber, from_to(1, 1e6), "m", ""},
@@ -113,9 +113,9 @@ template <const auto& Rows>
 Span<const KeyRow> keys_in() {
     return {Rows, sizeof Rows / sizeof Rows[0]};
 }
-constexpr RowList kKinds{keys_in<kKindRows>, nullptr, 1, kMostCloudKinds};
-constexpr RowList kPlaces{keys_in<kPlaceRows>, nullptr, 1, kMostClouds};
-constexpr RowList kScatters{keys_in<kScatterRows>, nullptr, 1, kMostScatters};
+constexpr RowList kKinds{keys_in<kKindRows>, nullptr, 1, kMaxCloudKinds};
+constexpr RowList kPlaces{keys_in<kPlaceRows>, nullptr, 1, kMaxClouds};
+constexpr RowList kScatters{keys_in<kScatterRows>, nullptr, 1, kMaxScatters};
 
 constexpr KeyRow kRows[] = {
     {"clouds.kind", rows<&CloudsSettings::kinds>, any(), "",

@@ -11,34 +11,43 @@ namespace {
 template <auto... Members>
 constexpr KeyField medium = field<Members...>;
 
+template <auto Member>
+constexpr KeyField source = field<&MediumSettings::source, Member>;
+template <auto Member>
+constexpr KeyField box = field<&MediumSettings::box, Member>;
+template <auto Member>
+constexpr KeyField optics = field<&MediumSettings::optics, Member>;
+
 /// A name or a path; a table is read key by key.
 constexpr KeyField kDensity{KeyKind::kDensity,
                             [](const KeySource& s) {
                                 const std::string& name = s.medium.density;
-                                return node_of(name.empty() ? s.medium.file : name);
+                                return node_of(name.empty() ? s.medium.source.file : name);
                             },
                             [](const KeyTarget& t, const Node& n) {
                                 if (!n.is_text()) return;
                                 const bool file = density_row(n.text) == nullptr;
-                                (file ? t.medium.file : t.medium.density) = n.text;
+                                (file ? t.medium.source.file : t.medium.density) = n.text;
                                 if (file) t.medium.density.clear();
                             }};
 constexpr KeyField kDensityFile{KeyKind::kText, [](const KeySource&) { return no_value(); },
                                 [](const KeyTarget& t, const Node& n) {
                                     t.medium.density.clear();
-                                    t.medium.file = n.text;
+                                    t.medium.source.file = n.text;
                                 }};
 /// Another way to say `grid`.
-constexpr KeyField kDensityGrid{KeyKind::kText, [](const KeySource&) { return no_value(); },
-                                [](const KeyTarget& t, const Node& n) { t.medium.grid = n.text; }};
+constexpr KeyField kDensityGrid{
+    KeyKind::kText, [](const KeySource&) { return no_value(); },
+    [](const KeyTarget& t, const Node& n) { t.medium.source.grid = n.text; }};
 
 constexpr KeyField kBounds{KeyKind::kBounds,
                            [](const KeySource& s) {
-                               return s.medium.has_bounds ? node_of(s.medium.bounds_m) : no_value();
+                               return s.medium.box.has_bounds ? node_of(s.medium.box.bounds_m)
+                                                              : no_value();
                            },
                            [](const KeyTarget& t, const Node& n) {
-                               t.medium.has_bounds = true;
-                               take(n, t.medium.bounds_m);
+                               t.medium.box.has_bounds = true;
+                               take(n, t.medium.box.bounds_m);
                            }};
 
 constexpr KeyRow kRows[] = {
@@ -50,20 +59,20 @@ constexpr KeyRow kRows[] = {
      "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
      "its front; a run of `#` in its name stands for the number of an animation's frame",
      kRequired},
-    {"medium.N.density.first_frame", medium<&MediumSettings::first_frame>, from_to(0, 1e9), "",
+    {"medium.N.density.first_frame", source<&MediumFile::first_frame>, from_to(0, 1e9), "",
      "of a sequence, a file whose name has `#`: the number that stands there in frame 0"},
-    {"medium.N.density.type", medium<&MediumSettings::raw_type>, one_of("uint8|uint16|float32"), "",
+    {"medium.N.density.type", source<&MediumFile::raw_type>, one_of("uint8|uint16|float32"), "",
      "type of the raw numbers; integers are scaled to 0..1; required for raw", kNoNote},
-    {"medium.N.density.size", medium<&MediumSettings::raw_size>, ranged(&MediumSettings::raw_size),
-     "cells", "cells along x, y, z of the raw file, x fastest; required for raw", kNoNote},
-    {"medium.N.density.endian", medium<&MediumSettings::raw_big_endian>, one_of("little|big"), "",
+    {"medium.N.density.size", source<&MediumFile::raw_size>, ranged(&MediumFile::raw_size), "cells",
+     "cells along x, y, z of the raw file, x fastest; required for raw", kNoNote},
+    {"medium.N.density.endian", source<&MediumFile::raw_big_endian>, one_of("little|big"), "",
      "byte order of the raw file"},
     {"medium.N.density.grid", kDensityGrid, any(), "",
      "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file", kNoNote},
-    {"medium.N.format", medium<&MediumSettings::format>,
+    {"medium.N.format", source<&MediumFile::format>,
      one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib|ply|csv|prt|bgeo|pdb|pda"), "",
      "kind of the file; left out: told by the end of its name", kNoNote},
-    {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
+    {"medium.N.grid", source<&MediumFile::grid>, any(), "",
      "name of the grid in an OpenVDB or NanoVDB file, of several of one name with a number, "
      "`density[1]`; left out: `density`, or else the first of floats that is no level set",
      kNoNote},
@@ -71,36 +80,34 @@ constexpr KeyRow kRows[] = {
      "lowest and highest corner of the medium's box; may be left out for files that know "
      "their place, and wins where given",
      kNoNote},
-    {"medium.N.resolution", medium<&MediumSettings::resolution>,
-     ranged(&MediumSettings::resolution), "cells",
+    {"medium.N.resolution", box<&MediumBox::resolution>, ranged(&MediumBox::resolution), "cells",
      "cells along x, y, z; procedural, uniform, NetCDF and particles only; left out: a suitable "
      "number",
      kNoNote},
     {"medium.N.shape_seed", medium<&MediumSettings::shape_seed>, from_to(0, 0x1p63), "",
      "another procedural cloud for each number"},
-    {"medium.N.extinction_per_m", medium<&MediumSettings::extinction_per_m>, from_to(0, 1e12),
-     "1/m",
+    {"medium.N.extinction_per_m", optics<&MediumOptics::extinction_per_m>, from_to(0, 1e12), "1/m",
      "extinction coefficient where the density is 1; required, but for files that hold "
      "extinction (les, netcdf; particles, where it is a factor) and beside `transfer`",
      kNoNote},
-    {"medium.N.extinction_scale", medium<&MediumSettings::extinction_scale>, from_to(0, 1e12), "",
+    {"medium.N.extinction_scale", optics<&MediumOptics::extinction_scale>, from_to(0, 1e12), "",
      "factor on the values of a file that holds extinction in 1/m (les, netcdf), for no others"},
-    {"medium.N.albedo", medium<&MediumSettings::albedo>, from_to(0, 1), "",
+    {"medium.N.albedo", optics<&MediumOptics::albedo>, from_to(0, 1), "",
      "share of the extinction that scatters; the rest is absorbed"},
-    {"medium.N.emission", medium<&MediumSettings::emission>, from_to(0, 1e9), "",
+    {"medium.N.emission", optics<&MediumOptics::emission>, from_to(0, 1e9), "",
      "radiance that the medium adds per metre where the density is 1, in the sun's unit per m and "
      "sr; it goes with the density as the extinction does (docs/lights.md, \"Media that emit\")"},
 };
 
 /// What stands behind the phase function.
 constexpr KeyRow kLastRows[] = {
-    {"medium.N.boundary", medium<&MediumSettings::periodic>, one_of("open|periodic"), "",
+    {"medium.N.boundary", box<&MediumBox::periodic>, one_of("open|periodic"), "",
      "what lies beside the box: nothing, or the same again without end along x and y; "
      "periodic for all media of a scene, with one box in x and y, or for none"},
-    {"medium.N.interpolation", medium<&MediumSettings::constant>, one_of("linear|constant"), "",
+    {"medium.N.interpolation", box<&MediumBox::constant>, one_of("linear|constant"), "",
      "the density between the middles of cells: linear from one to the next, or one value for "
      "each cell; the same for all media of a scene"},
-    {"medium.N.y_up", medium<&MediumSettings::y_up>, any(), "",
+    {"medium.N.y_up", source<&MediumFile::y_up>, any(), "",
      "true: the file's y axis points up; files only"},
 };
 

@@ -128,7 +128,7 @@ constexpr KeyRow kKeyRows[] = {
 };
 
 Span<const KeyRow> key_rows() { return {kKeyRows, sizeof kKeyRows / sizeof kKeyRows[0]}; }
-constexpr RowList kKeyList{key_rows, "frame", 1, kMostKeys};
+constexpr RowList kKeyList{key_rows, "frame", 1, kMaxKeys};
 
 constexpr KeyRow kRows[] = {
     {"output.files", output<&OutputSettings::files>, any(), "",

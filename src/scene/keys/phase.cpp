@@ -9,7 +9,7 @@ namespace pileus {
 namespace {
 
 constexpr KeyRow kType{"medium.N.phase.type",
-                       field<&MediumSettings::phase, &PhaseSettings::type>,
+                       field<&MediumSettings::optics, &MediumOptics::phase, &PhaseSettings::type>,
                        one_of(kPhaseNames.text),
                        "",
                        "phase function; a medium without `phase` scatters alike in all directions",

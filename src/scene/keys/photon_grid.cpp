@@ -51,7 +51,7 @@ constexpr KeyRow kRows[] = {
     {"photon_grid.temporal", grid<&PhotonGridSettings::thin, &UpsampleSettings::temporal>,
      upsample_keys::kCells, "", upsample_keys::kTemporal},
     {"photon_grid.light_refresh", grid<&PhotonGridSettings::light_refresh>,
-     ranged(&RaymarchSettings::light_refresh), "frames", upsample_keys::kLightRefresh},
+     ranged(&RaymarchLightSettings::refresh), "frames", upsample_keys::kLightRefresh},
     {"photon_grid.accumulation", grid<&PhotonGridSettings::accumulation>,
      one_of("auto|private|shared"), "",
      "sums per thread, or one set that all threads add to atomically; `auto`: per thread up to a "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The key of a medium's transfer function: a list of rows, whose keys have rows of their own.
-// in: checked values <-> out: MediumSettings::transfer.
+// in: checked values <-> out: MediumOptics::transfer.
 // docs/scene.md, "A transfer function".
 #include "src/scene/media/transfer.h"
 
@@ -21,19 +21,19 @@ constexpr KeyField kTransfer{KeyKind::kRows,
                              [](const KeySource& s) {
                                  Node list;
                                  list.kind = NodeKind::kArray;
-                                 for (const TransferRow& row : s.medium.transfer)
+                                 for (const TransferRow& row : s.medium.optics.transfer)
                                      list.children.push_back(row_node(row));
                                  return list;
                              },
                              [](const KeyTarget& t, const Node& n) {
-                                 t.medium.transfer.clear();
+                                 t.medium.optics.transfer.clear();
                                  for (const Node& child : n.children) {
                                      TransferRow row;
                                      take(*child.find("value"), row.value);
                                      take(*child.find("extinction_per_m"), row.extinction_per_m);
                                      if (const Node* albedo = child.find("albedo"))
                                          take(*albedo, row.albedo);
-                                     t.medium.transfer.push_back(row);
+                                     t.medium.optics.transfer.push_back(row);
                                  }
                              }};
 
@@ -44,7 +44,7 @@ constexpr KeyRow kRows[] = {
 };
 
 Span<const KeyRow> row_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
-constexpr RowList kList{row_keys, "value", 2, kMostTransferRows};
+constexpr RowList kList{row_keys, "value", 2, kMaxTransferRows};
 
 constexpr KeyRow kKey{"medium.N.transfer",
                       kTransfer,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands in place of the files and recipes of media: cells and particles in a host's memory,
-// or particles that are read already. in: pointers that outlive the reading -> out: one per medium.
-// docs/embedding.md, "Three handles"
+// particles that are read already, files that are open. in: pointers that outlive the reading ->
+// out: one per medium. docs/embedding.md, "Three handles"
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,6 +11,7 @@
 namespace pileus {
 
 struct ParticleSet;
+class WeatherFiles;
 
 /// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id`,
 /// `velocity`, `colour` or `emission`: none.
@@ -30,13 +31,17 @@ struct MediumValues {
     const HostParticles* particles = nullptr;  ///< instead of the file
     const ParticleSet* placed = nullptr;       ///< what is read already
     bool shadows_only = false;                 ///< the grid of particles is for shadows alone
+    WeatherFiles* weather = nullptr;           ///< those that are open; null: it is opened
 };
 
 struct HostMedia {
     std::vector<MediumValues> media;  ///< the first ones of a scene; others have none
+    WeatherFiles* weather = nullptr;  ///< of all media; null: each reader opens its own
 
     MediumValues of(std::size_t medium) const {
-        return medium < media.size() ? media[medium] : MediumValues{};
+        MediumValues values = medium < media.size() ? media[medium] : MediumValues{};
+        values.weather = weather;
+        return values;
     }
 };
 

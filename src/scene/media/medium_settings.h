@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,22 +31,37 @@ struct WeatherChoice {
     bool operator!=(const WeatherChoice& other) const { return !(*this == other); }
 };
 
-struct WeatherSettings {
+/// Names of variables, and what a file does not say of them. Empty: left out, as above.
+struct WeatherNames {
     std::string liquid, ice, cloud_fraction, temperature, pressure, humidity, height;
     std::string liquid_radius, ice_radius, surface_pressure, surface_geopotential;
     std::string variable;  ///< any field, shown by medium.transfer; empty: the water above
     std::string axes;      ///< "x: ni, y: nj": what dimensions are that the file cannot tell
     std::string units;  ///< "ql: kg kg-1, x: km": of variables whose own unit is wrong or missing
-    WeatherChoice time, member;
-    bool in_cloud = false;        ///< fraction = "in_cloud": water is divided by the cloud fraction
+};
+
+/// Sizes of all droplets and crystals.
+struct WeatherSizes {
     double liquid_radius_um = 0;  ///< effective; 0: of the file, or else 10
     double ice_radius_um = 0;     ///< effective; 0: of the file, or else 30
     double ice_dge_um = 0;        ///< Fu's generalized effective size; 0: the radius counts
-    bool missing_is_fault = false;
+};
+
+/// How places on the map become metres.
+struct WeatherPlace {
     bool plain_degrees = false;                  ///< geometry = "plain"
     std::array<double, 2> origin_deg{1e9, 1e9};  ///< longitude, latitude; 1e9: the middle
     double width_m = 0;                          ///< of a slice or a column, across; 0: a default
     double vertical_scale = 1;
+};
+
+struct WeatherSettings {
+    WeatherNames names;
+    WeatherChoice time, member;
+    bool in_cloud = false;  ///< fraction = "in_cloud": water is divided by the cloud fraction
+    bool missing_is_fault = false;
+    WeatherSizes sizes;
+    WeatherPlace place;
 };
 
 // Detail beyond a medium's grid: a tile of noise, how strong, and where. docs/detail.md
@@ -72,11 +86,9 @@ struct DetailSettings {
 /// Lumps of the first octave along a tile.
 constexpr int kDetailLumps = 4;
 
-class WeatherFile;
-
 /// A mesh of triangles that hides, is lit and casts shadows.
 struct SolidSettings {
-    std::string file;  ///< as MediumSettings::file
+    std::string file;  ///< as MediumFile::file
     Float3 albedo{0.2f, 0.2f, 0.2f};
     Double3 position_m{}, rotation_deg{};  ///< turned about x, then y, then z
     double scale = 1;                      ///< metres per unit of the file
@@ -88,7 +100,7 @@ struct SolidSettings {
 struct PhaseSettings {
     std::string type = "isotropic";         ///< a name of phase_row.h
     std::map<std::string, double> numbers;  ///< those that the type asks for, and no others
-    std::string file;                       ///< table, moments; as MediumSettings::file
+    std::string file;                       ///< table, moments; as MediumFile::file
 };
 
 /// What a medium is at one value of the field that it shows; linear in between.
@@ -100,9 +112,8 @@ struct TransferRow {
 
 enum class RawType { kUint8, kUint16, kFloat32 };
 
-struct MediumSettings {
-    /// A name of density_row.h; empty: a file.
-    std::string density = "procedural:cumulus";
+/// A medium's file, and what must be known to read it.
+struct MediumFile {
     std::string file;     ///< as written, relative to the scene file
     int first_frame = 0;  ///< of a sequence: the number of the file of frame 0
     std::string format;   ///< a name of volume_format.h; empty: by extension
@@ -110,26 +121,40 @@ struct MediumSettings {
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
-    WeatherSettings weather;  ///< of a NetCDF file
-    /// That file, where a session keeps it from its head to its values; null: each reader opens it.
-    std::shared_ptr<WeatherFile> weather_file;
-    ParticleSettings particles;  ///< of a medium made of particles
+    bool y_up = false;
+};
+
+/// The box of a medium and its cells.
+struct MediumBox {
     bool has_bounds = false;
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
-    std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
-    SkySettings sky;                         ///< of a procedural sky
-    CloudSettings cloud;                     ///< of a procedural cloud
-    double extinction_per_m = 0;             ///< at density 1
-    double extinction_scale = 1;             ///< for files that hold extinction; >= 0
-    Float3 albedo{1, 1, 1};
-    Float3 emission{0, 0, 0};  ///< radiance per metre where the density is 1; >= 0
-    PhaseSettings phase;
-    DetailSettings detail;
     bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
     bool constant = false;  ///< interpolation = "constant": a cell has one value
+};
+
+/// What a medium of density 1 does to light.
+struct MediumOptics {
+    double extinction_per_m = 0;
+    double extinction_scale = 1;  ///< for files that hold extinction; >= 0
+    Float3 albedo{1, 1, 1};
+    Float3 emission{0, 0, 0};  ///< radiance per metre; >= 0
+    PhaseSettings phase;
     std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it
-    bool y_up = false;
+};
+
+struct MediumSettings {
+    /// A name of density_row.h; empty: a file.
+    std::string density = "procedural:cumulus";
+    MediumFile source;
+    WeatherSettings weather;     ///< of a NetCDF file
+    ParticleSettings particles;  ///< of a medium made of particles
+    MediumBox box;
+    std::int64_t shape_seed = 0;  ///< another cumulus for each; key `shape_seed`
+    SkySettings sky;              ///< of a procedural sky
+    CloudSettings cloud;          ///< of a procedural cloud
+    MediumOptics optics;
+    DetailSettings detail;
 
     // Long, and lists of media have each of them in several places: in medium_settings.cpp once.
     MediumSettings();

@@ -37,7 +37,8 @@ std::size_t colour_of(const TransferRow& row, const std::vector<Float3>& colours
 std::uint64_t media_by_colour(const Scene& scene) {
     std::uint64_t count = 0;
     for (const MediumSettings& medium : scene.media)
-        count += medium.transfer.empty() ? 1 : transfer_colours(medium.transfer).size();
+        count +=
+            medium.optics.transfer.empty() ? 1 : transfer_colours(medium.optics.transfer).size();
     return count;
 }
 

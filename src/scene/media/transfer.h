@@ -7,7 +7,7 @@
 
 namespace pileus {
 
-constexpr std::size_t kMostTransferRows = 64;
+constexpr std::size_t kMaxTransferRows = 64;
 
 /// Between which rows a value stands: `share` of the way from `low` to `high`, in [0, 1].
 struct TransferPlace {

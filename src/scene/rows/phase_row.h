@@ -61,9 +61,9 @@ inline double number_in(const PhaseSettings& settings, const PhaseNumber& number
 template <const PhaseNumber& kNumber>
 constexpr KeyField phase_field{
     KeyKind::kNumber,
-    [](const KeySource& s) { return node_of(number_in(s.medium.phase, kNumber)); },
+    [](const KeySource& s) { return node_of(number_in(s.medium.optics.phase, kNumber)); },
     [](const KeyTarget& t, const Node& n) {
-        t.medium.phase.numbers[kNumber.name()] = number_of(n);
+        t.medium.optics.phase.numbers[kNumber.name()] = number_of(n);
     }};
 template <const PhaseNumber& kNumber>
 constexpr KeyRow phase_key{kNumber.path, phase_field<kNumber>, kNumber.allowed,

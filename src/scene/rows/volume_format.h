@@ -43,6 +43,11 @@ inline bool is_particle_format(const std::string& name) {
     const VolumeFormat* format = volume_format_named(name);
     return format != nullptr && format->is_particles;
 }
+/// Likewise weather data.
+inline bool is_weather_format(const std::string& name) {
+    const VolumeFormat* format = volume_format_named(name);
+    return format != nullptr && format->is_weather;
+}
 
 /// "\"pbrt\", \"raw\", ...", for messages; the same parted by '|' for the table of keys.
 std::string volume_format_names();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/angles.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/session/flux/flux_run.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -14,7 +16,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kPi64 = 3.14159265358979323846;
 /// Rows of the map of a sky that shines from below. It is read bilinearly: the horizon is blurred
 /// over a row, by which the flux is wrong by less than 10^-6.
 constexpr int kBelowRows = 4096;
@@ -169,14 +170,14 @@ Status measure_once(const FluxTask& task, std::int64_t count, FluxResult& out, I
 /// What is shown is one measurement, that of a budget of the same number.
 Status measure_to_aim(FluxTask& task, std::int64_t first, bool aims, FluxResult& out, Image& maps,
                       Report& report) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // paths of a detector, or photons
+    constexpr std::uint64_t kMax = std::uint64_t{1} << 26;  // paths of a detector, or photons
     constexpr int kRounds = 4;
     // Errors are known to an eighth by photons: aim a little beyond.
     constexpr double kBeyond = 1.2;
     const bool photons = task.settings.method == FluxMethod::kPhotons;
     const std::uint64_t each =
         photons ? 1 : std::uint64_t(out.columns[0]) * std::uint64_t(out.columns[1]);
-    const std::int64_t most = std::max(first, std::int64_t(kMost / each));
+    const std::int64_t most = std::max(first, std::int64_t(kMax / each));
     const std::size_t counters = report.counters.size();
     for (int round = 0;; ++round) {
         report.counters.resize(counters);
@@ -218,6 +219,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     PILEUS_TRY(row.check(own, budget));
     Scenery scenery(own);
     scenery.media = options.media;
+    scenery.weather = make_weather_files();
     Plan plan;
     MadeMethod made;
     PathMethod& path = make_path({own, budget}, made);

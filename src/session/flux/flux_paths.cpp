@@ -35,7 +35,7 @@ struct Sums {
 };
 
 bool shines(const Lighting& light) {
-    return light.map.columns > 0 || light.ground || light.sky[0] > 0 || light.sky[1] > 0 ||
+    return light.map.columns > 0 || light.ground.present || light.sky[0] > 0 || light.sky[1] > 0 ||
            light.sky[2] > 0;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kFewestPhotons = 1024;
 /// Events after which a photon is given up.
-constexpr std::uint32_t kMostEvents = 1u << 20;
+constexpr std::uint32_t kMaxEvents = 1u << 20;
 
 /// Parts of the grid's voxels along an axis: photons are counted voxel by voxel.
 Status check_parts(const char* option, int parts, int voxels, const char* axis) {
@@ -98,9 +98,9 @@ Lighting lights_of(const FluxTask& task) {
     if (lit.map.columns > 0)
         add("sky", kSkyStream, {1, 1, 1}, map_light(task.scenery.environment.sky_map));
     else
-        add("sky", kSkyStream, lit.sky, diffuse_light(medium, lit.ground ? -1 : 0));
-    if (lit.ground)
-        add("ground", kGroundStream, lit.ground_diffuse + lit.ground_sun, diffuse_light(medium, 1));
+        add("sky", kSkyStream, lit.sky, diffuse_light(medium, lit.ground.present ? -1 : 0));
+    if (lit.ground.present)
+        add("ground", kGroundStream, lit.ground.diffuse + lit.ground.sun, diffuse_light(medium, 1));
     return lit;
 }
 
@@ -209,20 +209,20 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     in.deposit.bands = in.deposit.coefficients = 1;
     in.deposit.channels = medium.channels == 3 || lighting.map.planes == 3 ? 3 : 1;
     in.deposit.places =
-        fixed_point_places(double(photons) / kFluxBatches * 1.5 * double(kMostEvents), 1.01);
+        fixed_point_places(double(photons) / kFluxBatches * 1.5 * double(kMaxEvents), 1.01);
     if (in.deposit.places < 0)
         return Status::limit("--budget photons: could overflow the 64-bit sums; take fewer");
     in.seed = std::uint64_t(task.scene.seed);
     in.threads = context.threads;
     in.kernels = context.kernels;
-    in.max_events = kMostEvents;
+    in.max_events = kMaxEvents;
     if (context.sharing != nullptr)
         in.part = context.sharing->part();
     else
         in.ended = patient_stop(context);
     PILEUS_TRY(weigh(task, layout, in));
     PILEUS_TRY(check_work(estimate_work(medium_work(medium, task.scenery.world->source.mean_density,
-                                                    double(kMostEvents), double(photons))),
+                                                    double(kMaxEvents), double(photons))),
                           context.limits, task.scene.file));
 
     FluxTally tally(task, layout, in);

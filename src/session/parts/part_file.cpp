@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x5452415053554c50;  // "PLUSPART"
 constexpr std::uint64_t kFormat = 1;
-constexpr std::uint64_t kMostTexts = 4096, kMostChannels = 256;
+constexpr std::uint64_t kMaxTexts = 4096, kMaxPartChannels = 256;
 
 std::uint64_t little(std::uint64_t v) {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -160,7 +160,7 @@ Status read_rows(Reader& r, Image& rows) {
     for (auto* matrix : {&rows.world_to_camera, &rows.world_to_ndc})
         for (float& v : *matrix) v = r.number32();
     rows.screen_window_width = r.number32();
-    const std::uint64_t channels = r.count(1, kMostChannels);
+    const std::uint64_t channels = r.count(1, kMaxPartChannels);
     if (!r.sound()) return Status::ok();
     rows.width = int(width);
     rows.height = int(height);
@@ -210,19 +210,19 @@ Status decode_part(const std::string& name, Span<const char> bytes, Part& part) 
     if (bytes.size % 8 != 0 || digest_of({bytes.data, bytes.size - 8}) != little(last))
         return fault("damaged or cut, its digest does not fit");
     const std::uint64_t division = r.word(), index = r.word(), parts = r.word(), frame = r.word();
-    if (division > 3 || parts < 1 || parts > kMostParts || index >= parts || frame > 0x7fffffff)
+    if (division > 3 || parts < 1 || parts > kMaxParts || index >= parts || frame > 0x7fffffff)
         return fault("damaged, no such part");
     part.division = Division(division);
     part.part.index = std::uint32_t(index);
     part.part.count = std::uint32_t(parts);
     part.frame = int(frame);
     part.rows.scene_text = r.text();
-    const std::uint64_t texts = r.count(2, kMostTexts);
+    const std::uint64_t texts = r.count(2, kMaxTexts);
     for (std::uint64_t i = 0; i < texts && r.sound(); ++i) {
         std::string key = r.text(), text = r.text();
         part.rows.origin.emplace_back(std::move(key), std::move(text));
     }
-    const std::uint64_t counters = r.count(2, kMostTexts);
+    const std::uint64_t counters = r.count(2, kMaxTexts);
     for (std::uint64_t i = 0; i < counters && r.sound(); ++i) {
         std::string key = r.text();
         part.counters.emplace_back(std::move(key), r.word());

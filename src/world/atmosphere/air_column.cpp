@@ -3,11 +3,12 @@
 #include "src/world/atmosphere/air_column.h"
 
 #include "kernels_cpu/core/math.h"
+#include "src/base/angles.h"
 
 namespace pileus {
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kHalfPi = kPi64 / 2;
 
 double root(double v) { return v > 0 ? __builtin_sqrt(v) : 0; }
 double above(double v) { return v > 0 ? v : 0; }

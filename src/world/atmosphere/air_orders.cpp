@@ -34,7 +34,6 @@ constexpr double kNodes[kUps] = {0.0337652428984240, 0.1693953067668677, 0.38069
                                  0.6193095930415985, 0.8306046932331323, 0.9662347571015760};
 constexpr double kWeights[kUps] = {0.0856622461895852, 0.1803807865240693, 0.2339569672863455,
                                    0.2339569672863455, 0.1803807865240693, 0.0856622461895852};
-constexpr double kTwoPi = 6.28318530717958647692;
 
 double zenith_cosine(int z) { return z < kUps ? kNodes[z] : -kNodes[z - kUps]; }
 double turn_cosine(int turn) { return sincos_deg(180.0 * (turn + 0.5) / kTurns).cosine; }
@@ -130,7 +129,7 @@ void gather(Orders& o, int entry) {
     for (int i = 0; i < 4 * kAirTerms; ++i) out[i] = 0;
     double level[3] = {};
     for (int way = 0; way < kWays; ++way) {
-        const double weight = kWeights[way / kTurns % kUps] * kTwoPi / kTurns;
+        const double weight = kWeights[way / kTurns % kUps] * kTwoPi64 / kTurns;
         const float* light = o.at(o.all, way, entry);
         for (int term = 0; term < kAirTerms; ++term)
             for (int c = 0; c < 3; ++c)
@@ -247,7 +246,7 @@ void air_harmonics(double cosine, double east, float (&y)[kAirTerms]) {
             p[l][m] = ((2 * l - 1) * cosine * p[l - 1][m] - (l + m - 1) * p[l - 2][m]) / (l - m);
     for (int l = 0, term = 0; l < kAirBands; ++l)
         for (int m = 0; m <= l; ++m, ++term) {
-            double size = (2 * l + 1) / (2 * kTwoPi) * (m > 0 ? 2 : 1);
+            double size = (2 * l + 1) / (2 * kTwoPi64) * (m > 0 ? 2 : 1);
             for (int k = l - m + 1; k <= l + m; ++k) size /= k;
             y[term] = float(root(size) * p[l][m] * turns[m]);
         }

@@ -19,19 +19,17 @@ namespace {
 
 /// The first medium that is weather data; null: there is none.
 const MediumSettings* weather_of(const Scene& scene) {
-    for (const MediumSettings& medium : scene.media) {
-        const VolumeFormat* format = volume_format_named(medium.format);
-        if (format != nullptr && format->is_weather) return &medium;
-    }
+    for (const MediumSettings& medium : scene.media)
+        if (is_weather_format(medium.source.format)) return &medium;
     return nullptr;
 }
 
-Status map_of(const Scene& scene, WeatherMap& map) {
+Status map_of(const Scene& scene, WeatherFiles* files, WeatherMap& map) {
     const MediumSettings* medium = weather_of(scene);
     if (medium == nullptr)
         return Status::bad_input(
             "no map to find it on, allowed: with a medium of weather data, or in metres");
-    return read_weather_map(*medium, density_path(scene, *medium), map);
+    return read_weather_map(*medium, density_path(scene, *medium), map, files);
 }
 
 Status check_view(const Scene& scene) {
@@ -53,13 +51,13 @@ Status check_view(const Scene& scene) {
 
 }  // namespace
 
-Status place_camera(Scene& scene) {
+Status place_camera(Scene& scene, WeatherFiles* files) {
     Camera& c = scene.camera;
     ViewFiles& by = scene.view_files;
     if (!by.position_by_place && !by.target_by_place) return Status::ok();
     const char* key = by.position_by_place ? "camera.position_deg" : "camera.target_deg";
     WeatherMap map;
-    PILEUS_TRY(at_key(scene, key, map_of(scene, map)));
+    PILEUS_TRY(at_key(scene, key, map_of(scene, files, map)));
     if (by.position_by_place)
         PILEUS_TRY(at_key(scene, key, map.place("place", by.position_place, c.position_m)));
     if (by.target_by_place)
@@ -70,7 +68,8 @@ Status place_camera(Scene& scene) {
 }
 
 std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene, const Camera& c,
-                                                               double orbit_deg) {
+                                                               double orbit_deg,
+                                                               WeatherFiles* files) {
     std::vector<std::pair<std::string, std::string>> told;
     if (!c.orthographic || c.flux || c.has_frustum || weather_of(scene) == nullptr) return told;
     const Double3 position = orbit(c.position_m, c.target_m, orbit_deg);
@@ -98,7 +97,7 @@ std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scen
                           fmt::format("{} {} {} {}", position[0] + west, position[1] + south,
                                       position[0] + east, position[1] + north));
     WeatherMap map;
-    if (map_of(scene, map)) told.emplace_back("projection", map.projection());
+    if (map_of(scene, files, map)) told.emplace_back("projection", map.projection());
     return told;
 }
 

@@ -12,10 +12,13 @@
 
 namespace pileus {
 
+class WeatherFiles;
+
 /// Fills in position_m and target_m of a camera that is told by places, which then is as one told
 /// in metres. kBadInput: no weather data, no map, a place beyond it, or a camera that looks nowhere
 /// or stands below the ground.
-Status place_camera(Scene& scene);
+/// `files`: through which the file is read; null: it is opened for that alone.
+Status place_camera(Scene& scene, WeatherFiles* files = nullptr);
 
 /// What a picture of a camera of the scene says of its place where that is orthographic and looks
 /// straight down on weather data: names and texts "extent_m" ("west south east north", where up is
@@ -23,6 +26,7 @@ Status place_camera(Scene& scene);
 /// writes it, left out where the file tells of no map. Empty for all other cameras.
 std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene,
                                                                const Camera& camera,
-                                                               double orbit_deg);
+                                                               double orbit_deg,
+                                                               WeatherFiles* files = nullptr);
 
 }  // namespace pileus

@@ -35,7 +35,7 @@ double mean_of(CloudForm form) {
 
 DensityOutline outline_row(const MediumSettings& medium) {
     const std::array<int, 3> size = default_cloud_size(medium);
-    const std::array<int, 3>& cells = medium.resolution[0] > 0 ? medium.resolution : size;
+    const std::array<int, 3>& cells = medium.box.resolution[0] > 0 ? medium.box.resolution : size;
     const CloudForm form = cloud_type(medium.cloud.type).form;
     // Of a layer its map of rising air, twice; of a field its clouds.
     const bool heaped =

@@ -155,23 +155,24 @@ void check_cloud(SceneCheck& check, std::size_t index) {
     if (type.cell_m > 0 && boxed && check.valid_key(path + "cloud.position_m") != nullptr)
         fault("position_m", "conflicts with bounds_m, which a layer fills, allowed: left out");
     if (!boxed) {
-        medium.has_bounds = true;
-        medium.bounds_m = place.bounds_m;
+        medium.box.has_bounds = true;
+        medium.box.bounds_m = place.bounds_m;
         const Ground& ground = check.scene.ground;
-        if (is_below_ground(ground, medium.bounds_m[0].z, 0))
-            fault("base_m", below_ground_text(ground, medium.bounds_m[0].z, 0));
+        if (is_below_ground(ground, medium.box.bounds_m[0].z, 0))
+            fault("base_m", below_ground_text(ground, medium.box.bounds_m[0].z, 0));
     }
-    if (check.written && check.key(path + "extinction_per_m") == nullptr && medium.transfer.empty())
-        medium.extinction_per_m = type.extinction_per_m > 0
-                                      ? type.extinction_per_m
-                                      : cloud_extinction_per_m(place.cloud.height_m);
+    if (check.written && check.key(path + "extinction_per_m") == nullptr &&
+        medium.optics.transfer.empty())
+        medium.optics.extinction_per_m = type.extinction_per_m > 0
+                                             ? type.extinction_per_m
+                                             : cloud_extinction_per_m(place.cloud.height_m);
     if (check.written && check.key(path + "phase") == nullptr) {
         const double radius = type.effective_radius_um;
-        medium.phase.type = radius < 0 ? "henyey-greenstein" : "cloud";
+        medium.optics.phase.type = radius < 0 ? "henyey-greenstein" : "cloud";
         if (radius < 0)
-            medium.phase.numbers["g"] = kIceCosine;
+            medium.optics.phase.numbers["g"] = kIceCosine;
         else
-            medium.phase.numbers["effective_radius_um"] =
+            medium.optics.phase.numbers["effective_radius_um"] =
                 radius > 0 ? radius : cloud_radius_um(place.cloud.height_m);
     }
 }
@@ -179,9 +180,9 @@ void check_cloud(SceneCheck& check, std::size_t index) {
 Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& place) {
     place.cloud = resolved_cloud(medium.cloud);
     const CloudForm form = cloud_type(medium.cloud.type).form;
-    if (medium.has_bounds) place.bounds_m = medium.bounds_m;
+    if (medium.box.has_bounds) place.bounds_m = medium.box.bounds_m;
     if (form != CloudForm::kHeap && form != CloudForm::kLens) {
-        if (!medium.has_bounds) box_layer(medium, form, place);
+        if (!medium.box.has_bounds) box_layer(medium, form, place);
         fit_layer(medium, form, place);
         place.full_m = place.cloud.height_m;
         return Status::ok();
@@ -190,7 +191,7 @@ Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& pl
         heap.extent = lens_extent(place.cloud);
     else
         PILEUS_TRY(grow_cloud(place.cloud, heap));
-    if (medium.has_bounds) {
+    if (medium.box.has_bounds) {
         fit_heap(medium, heap, place);
         place.full_m = place.cloud.height_m;
         return Status::ok();
@@ -211,7 +212,7 @@ std::array<int, 3> default_cloud_size(const MediumSettings& medium) {
                          : form == CloudForm::kHeap && !wide ? 256
                          : wide || form == CloudForm::kField ? 384
                                                              : 448;
-    const auto& box = medium.bounds_m;
+    const auto& box = medium.box.bounds_m;
     double longest = 0;
     for (int a = 0; a < 3; ++a) longest = std::max(longest, box[1][a] - box[0][a]);
     // Lenses are flat, and their rims thin.

@@ -76,7 +76,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     CumulusSettings settings;
     settings.resolution = with.size;
     settings.seed = medium.shape_seed;
-    settings.extent_m = medium.bounds_m[1] - medium.bounds_m[0];
+    settings.extent_m = medium.box.bounds_m[1] - medium.box.bounds_m[0];
     return make_cumulus(settings, kernels_of(with.kernels), with.threads, volume);
 }
 

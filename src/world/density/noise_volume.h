@@ -10,7 +10,7 @@
 
 namespace pileus {
 
-constexpr int kLeastNoiseSize = 16, kMostNoiseSize = 512;
+constexpr int kLeastNoiseSize = 16, kMaxNoiseSize = 512;
 
 /// Texels over the finest lattice cell that an octave may have.
 constexpr int kTexelsPerCell = 4;
@@ -34,7 +34,7 @@ struct NoiseTexture {
     int size = 0;
     int most = 0;  ///< the largest byte
     /// Variance that reading a level gives less than reading level 0, in units of a byte's step.
-    double lost[kMostNoiseLevels] = {};
+    double lost[kMaxNoiseLevels] = {};
 
     /// The arrays and sizes; place, scale and share are the caller's.
     NoiseView view() const;

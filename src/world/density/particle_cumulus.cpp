@@ -19,7 +19,7 @@ constexpr std::uint64_t kFirstShape = 4;  ///< seed 0 is the shape of procedural
 constexpr double kRim = 0.02;             ///< of the box, left free about the bubbles
 constexpr double kShell = 0.2;            ///< power of the share of a bubble's radius; 1/3: uniform
 constexpr double kBallOverlap = 1.5;      ///< radius in mean distances within a bubble
-constexpr double kMostOfBubble = 0.5;     ///< radius of a particle in that of its bubble
+constexpr double kMaxOfBubble = 0.5;      ///< radius of a particle in that of its bubble
 /// Measured: what bubbles that overlap add up to in the cloud's upper half, were each 1; mean over
 /// the box.
 constexpr double kBubblesUpon = 6.5, kMeanCumulus = 0.0675;
@@ -48,7 +48,7 @@ void ParticleCumulus::make(std::uint64_t i, float* place, float* velocity, float
     const double out = size * power_of(recipe_draw(key, i, 3) + 1e-9, kShell);
     const double own = share[b] - (b > 0 ? share[b - 1] : 0);
     const double room = size * size * size / (own / share[list.count - 1] * particles);
-    const double r = std::min(kBallOverlap * cube_root(room), kMostOfBubble * size);
+    const double r = std::min(kBallOverlap * cube_root(room), kMaxOfBubble * size);
     radius = float(r);
     // The base cuts the bubbles: what is below is put above, and none reaches through it.
     const double height = double(bubble.z) + out * up;

@@ -25,22 +25,22 @@ Status begin_recipe(const MediumSettings& medium, ParticleSet& out) {
     PILEUS_TRY(out.id.resize(n, "particles"));
     PILEUS_TRY(out.velocity.resize(3 * n, "particles"));
     for (std::uint64_t i = 0; i < n; ++i) out.id[i] = i;
-    out.low = medium.bounds_m[0];
-    out.high = medium.bounds_m[1];
+    out.low = medium.box.bounds_m[0];
+    out.high = medium.box.bounds_m[1];
     out.origin = out.low + (out.high - out.low) * 0.5;
     return Status::ok();
 }
 
 DensityOutline outline_recipe(const MediumSettings& medium, double mean) {
     DensityOutline outline;
-    const Double3 extent = medium.bounds_m[1] - medium.bounds_m[0];
+    const Double3 extent = medium.box.bounds_m[1] - medium.box.bounds_m[0];
     const double width = std::min(extent[0], extent[1]);
     std::uint64_t cells = 1;
     for (std::size_t a = 0; a < 3; ++a) {
         const double wanted = width > 0 ? kCellsAcross * extent[int(a)] / width : 1;
         const int own = wanted < 256 ? std::max(1, int(wanted + 0.5)) : 256;
         outline.size[a] = own;
-        cells *= std::uint64_t(medium.resolution[0] > 0 ? medium.resolution[a] : own);
+        cells *= std::uint64_t(medium.box.resolution[0] > 0 ? medium.box.resolution[a] : own);
     }
     outline.mean = mean;
     // Places, radii, densities, numbers, velocities; sums of cells.

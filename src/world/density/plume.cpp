@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/base/powers.h"
 #include "src/base/random_streams.h"
 #include "src/io/particles/placed_particles.h"
@@ -20,9 +21,9 @@ constexpr int kPuffs = 240;
 constexpr double kPuffOff = 0.55, kLeastBall = 0.2;  ///< from the axis, and size, in half widths
 /// Numbers of puffs lie beyond those of particles.
 constexpr std::uint64_t kPuffNumbers = 0xf0000000u;
-constexpr double kMostRadius = 0.06;  ///< of a particle
-constexpr double kOverlap = 1.5;      ///< radius in mean distances of particles
-constexpr double kTurnsUp = 1.3;      ///< turns of the axis
+constexpr double kMaxRadius = 0.06;  ///< of a particle
+constexpr double kOverlap = 1.5;     ///< radius in mean distances of particles
+constexpr double kTurnsUp = 1.3;     ///< turns of the axis
 /// Measured: density at mid-height over that at the foot; mean over the box.
 constexpr double kFootShare = 0.05, kMeanDensity = 0.00277;
 
@@ -58,7 +59,7 @@ void Plume::make(std::uint64_t i, float* place, float* velocity, float& radius,
     const auto around = recipe_turn(draw(i, 1));
     const double up = 2 * draw(i, 2) - 1, level = double(sqrt_(float(1 - up * up)));
     const double out = ball * cube_root(draw(i, 3) + 1e-9);
-    const double r = std::min(kOverlap * spacing * (0.6 + 0.8 * height), kMostRadius * width);
+    const double r = std::min(kOverlap * spacing * (0.6 + 0.8 * height), kMaxRadius * width);
     radius = float(r);
     const double at[3] = {
         kWander * width * axis.sine * height + off * where.cosine + out * level * around.cosine,
@@ -84,11 +85,11 @@ Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
     PILEUS_TRY(begin_recipe(medium, out));
     const std::uint64_t n = out.count;
     Plume plume;
-    plume.low = medium.bounds_m[0];
-    plume.extent = medium.bounds_m[1] - medium.bounds_m[0];
+    plume.low = medium.box.bounds_m[0];
+    plume.extent = medium.box.bounds_m[1] - medium.box.bounds_m[0];
     plume.width = std::min(plume.extent[0], plume.extent[1]);
     const double middle = plume.half_width(0.5);
-    const double volume = 3.14159265358979323846 * middle * middle * plume.extent[2];
+    const double volume = kPi64 * middle * middle * plume.extent[2];
     plume.spacing = cube_root(volume / double(n));
     // Overlapping particles add up to about 1 at the foot, where they are densest.
     plume.mass = kFootShare * volume / double(n) / kBallMass;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "src/base/angles.h"
 #include "src/scene/rows/density_row.h"
 
 namespace pileus {
@@ -69,16 +70,17 @@ Status allocate(const std::array<int, 3>& resolution, Volume& volume) {
 /// Light is kept by cell, so cells of a box are half an optical depth along each axis, up to 64.
 int box_cells(double depth) {
     constexpr double kDepthOfCell = 0.5;
-    constexpr int kMost = 64;
+    constexpr int kMax = 64;
     if (!(depth > kDepthOfCell)) return 1;
-    return depth < kMost * kDepthOfCell ? int(std::ceil(depth / kDepthOfCell)) : kMost;
+    return depth < kMax * kDepthOfCell ? int(std::ceil(depth / kDepthOfCell)) : kMax;
 }
 
 DensityOutline outline_box(const MediumSettings& medium) {
     DensityOutline outline{{1, 1, 1}, 1, 0, 0};
     for (std::size_t a = 0; a < 3; ++a)
-        outline.size[a] = box_cells((medium.bounds_m[1][int(a)] - medium.bounds_m[0][int(a)]) *
-                                    medium.extinction_per_m);
+        outline.size[a] =
+            box_cells((medium.box.bounds_m[1][int(a)] - medium.box.bounds_m[0][int(a)]) *
+                      medium.optics.extinction_per_m);
     return outline;
 }
 
@@ -97,7 +99,7 @@ constexpr DensityRow round_row(const char* name) {
     DensityRow row;
     row.name = name;
     row.outline = [](const MediumSettings&) {
-        constexpr double kMean = 3.14159265358979323846 / 6;  // share of its box that it fills
+        constexpr double kMean = kPi64 / 6;  // share of its box that it fills
         return DensityOutline{{64, 64, 64}, kMean, 0, 0};
     };
     row.mean_within = 1.0002;

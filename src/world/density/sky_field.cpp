@@ -144,7 +144,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
 bool tiles_fill_box(const MediumSettings& settings) {
     for (std::size_t a = 0; a < 2; ++a)
         for (const SkyNoise* noise : {&settings.sky.perlin, &settings.sky.worley}) {
-            const double edge = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+            const double edge = settings.box.bounds_m[1][a] - settings.box.bounds_m[0][a];
             const double tiles = edge / (noise->tile_m * settings.sky.scale);
             if (std::fabs(tiles - std::floor(tiles + 0.5)) > 1e-6 * tiles) return false;
         }
@@ -207,7 +207,7 @@ void bound_sky(const double* extent_m, SkyField& sky) {
 std::array<int, 3> default_sky_size(const MediumSettings& settings) {
     double edge[3], longest = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-        edge[a] = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+        edge[a] = settings.box.bounds_m[1][a] - settings.box.bounds_m[0][a];
         longest = std::max(longest, edge[a]);
     }
     std::array<int, 3> size;
@@ -221,7 +221,7 @@ Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
                 double wind_s) {
     SkyField own;
     SkyField& sky = keep != nullptr ? *keep : own;
-    PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky,
+    PILEUS_TRY(make_sky(settings.sky, settings.box.bounds_m[0], kernels, threads, sky,
                         !tiles_fill_box(settings), wind_s));
     BakeParams k{};
     k.sky = sky.params;
@@ -229,7 +229,8 @@ Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
     std::uint64_t cells = 1;
     for (std::size_t a = 0; a < 3; ++a) {
         k.size[a] = volume.size[a];
-        k.cell_m[a] = float((settings.bounds_m[1][a] - settings.bounds_m[0][a]) / volume.size[a]);
+        k.cell_m[a] =
+            float((settings.box.bounds_m[1][a] - settings.box.bounds_m[0][a]) / volume.size[a]);
         k.width_m = std::max(k.width_m, k.cell_m[a]);
         cells *= std::uint64_t(volume.size[a]);
     }

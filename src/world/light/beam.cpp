@@ -15,7 +15,7 @@ namespace {
 
 /// Degrees that are tried: smooth phase functions are done after the first.
 constexpr int kDegrees[] = {96, 512, 1024};
-constexpr int kMostDegrees = kDegrees[2];
+constexpr int kMaxDegrees = kDegrees[2];
 constexpr double kNothing = 1e-5;  // of a degree's part in the sum
 /// Of the last eighth of the degrees: a sum cut off there would ring, by a thirtieth of that at
 /// angles far from the peak, where P_l is as small.
@@ -24,7 +24,6 @@ constexpr double kRings = 1e-3;
 constexpr double kSmoothing = 14;
 /// Straight on a phase function above this has its peak within 1 - cos = 2^-40 and nearer.
 constexpr double kNeedle = 17500;
-constexpr double kTwoPi = 6.28318530717958647693;
 
 /// Moments of the whole function and of what stays in the beam; degrees that count.
 struct Moments {
@@ -58,7 +57,7 @@ void add_panel(const PhaseParams& phase, double turn, double begin, double end, 
     for (int i = 0; i <= parts; ++i) {
         const double x = begin + (end - begin) * i / parts;
         const double simpson = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
-        const double weight = kTwoPi * simpson * (end - begin) / (3.0 * parts) *
+        const double weight = kTwoPi64 * simpson * (end - begin) / (3.0 * parts) *
                               double(phase_density(phase, float(x)));
         const double kept = x < 30 * turn ? weight * exponential(-x / turn) : 0;
         legendre(1 - x, degrees, [&](std::size_t l, double value) {
@@ -75,7 +74,7 @@ Moments moments_of(const PhaseParams& phase, double turn) {
     const double least = needle ? 0x1p-60 : 0x1p-40;
     const double straight = needle_shares(phase).forward;
     for (const int degrees : kDegrees) {
-        if (needle && degrees < kMostDegrees) continue;
+        if (needle && degrees < kMaxDegrees) continue;
         Moments m(degrees);
         for (double outer = 1, inner; outer > 0; outer = inner) {
             inner = outer > least ? 0.5 * outer : 0;
@@ -92,7 +91,7 @@ Moments moments_of(const PhaseParams& phase, double turn) {
         // A sum that ends well before its degrees do has all that counts.
         if (m.degrees < degrees - degrees / 8) return m;
         if (degrees >= kDegrees[1] && !m.rings()) return m;
-        if (degrees < kMostDegrees) continue;
+        if (degrees < kMaxDegrees) continue;
         m.smooth = kSmoothing / (double(degrees) * (degrees + 1));
         return m;
     }
@@ -126,7 +125,7 @@ std::vector<double> weights_of(const Moments& m, const std::vector<double>& kept
         const double tau = double(kBeamDepth) * part / (1 - part) * albedo;
         for (std::size_t l = 0; l < degrees; ++l)
             w[std::size_t(d) * degrees + l] =
-                (2.0 * double(l) + 1) / (2 * kTwoPi) * m.all[l] *
+                (2.0 * double(l) + 1) / (2 * kTwoPi64) * m.all[l] *
                 (exponential(-tau * (kept[0] - kept[l])) - exponential(-tau * kept[0]));
         for (std::size_t l = 0; m.smooth > 0 && l < degrees; ++l)
             w[std::size_t(d) * degrees + l] *= exponential(-m.smooth * double(l) * (double(l) + 1));
@@ -138,8 +137,8 @@ std::vector<double> weights_of(const Moments& m, const std::vector<double>& kept
 double turn_of_node(int node) { return turn_at_share(double(node) / kBeamAngles); }
 
 /// Parts of several media of all extinction there is.
-std::array<double, kMostMedia> parts_of(const Medium& medium) {
-    std::array<double, kMostMedia> part{};
+std::array<double, kMaxMedia> parts_of(const Medium& medium) {
+    std::array<double, kMaxMedia> part{};
     const std::size_t voxels = std::size_t(voxel_count(medium.grid));
     double all = 0, first = 1;
     for (std::size_t v = 0; v < voxels; ++v) all += double(medium.volume.density[v]);
@@ -156,7 +155,7 @@ std::array<double, kMostMedia> parts_of(const Medium& medium) {
 /// Of several media, each as often as its part of the extinction and its albedo: moments by
 /// `albedo` times those of one phase function.
 Moments mean_moments(const std::vector<Moments>& of, const Medium& medium,
-                     const std::array<double, kMostMedia>& part, std::size_t channel,
+                     const std::array<double, kMaxMedia>& part, std::size_t channel,
                      double& albedo) {
     std::size_t count = 0;
     for (const Moments& m : of) count = m.all.size() > count ? m.all.size() : count;
@@ -178,7 +177,7 @@ Moments mean_moments(const std::vector<Moments>& of, const Medium& medium,
 }
 
 void fill_angle(const Moments& m, const std::vector<double>& weights, int node, float* out) {
-    double values[kMostDegrees];
+    double values[kMaxDegrees];
     legendre(1 - turn_of_node(node), m.degrees,
              [&](std::size_t l, double value) { values[l] = value; });
     for (int d = 0; d <= kBeamDepths; ++d) {
@@ -213,7 +212,7 @@ Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns t
         out.shares[i] = of.back().kept[0];
     }
     Moments m = of[0];
-    std::array<double, kMostMedia> part{};
+    std::array<double, kMaxMedia> part{};
     if (media > 1) part = parts_of(medium);
     for (std::size_t s = 0; s < 3; ++s) {
         double albedo = double(medium.optics[0].albedo[s]);

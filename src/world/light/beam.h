@@ -17,11 +17,11 @@ namespace pileus {
 /// From a point, light that is turned at the share u of its way comes from u times that angle off
 /// the point in the end: there c_l is the mean of c_ul over u.
 struct Beam {
-    double shares[kMostMedia] = {};  ///< f of each medium
-    int sets = 0;                    ///< one a channel of the medium; 0: there are no tables
-    bool points = false;             ///< there are those of points, too
-    float rest[3] = {};              ///< 1 - w f
-    Buffer<float> tables;            ///< Q: [parallel, from a point][set][angle][depth]
+    double shares[kMaxMedia] = {};  ///< f of each medium
+    int sets = 0;                   ///< one a channel of the medium; 0: there are no tables
+    bool points = false;            ///< there are those of points, too
+    float rest[3] = {};             ///< 1 - w f
+    Buffer<float> tables;           ///< Q: [parallel, from a point][set][angle][depth]
 };
 
 namespace arrays {

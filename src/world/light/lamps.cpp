@@ -17,7 +17,6 @@ namespace {
 
 /// A light without a radius has this share of the shortest edge of a cell.
 constexpr double kLeastRadius = 1e-3;
-constexpr double kHalfTurn = 3.14159265358979323846;
 /// Slope of a cone's hard edge: full light a float's step inside of it.
 constexpr double kHardEdge = 1e7;
 
@@ -124,7 +123,7 @@ LitGround lit_ground(const LampParams& lamp, double height) {
         const auto turn = sincos_deg(360 * (i % kAround + 0.5) / kAround);
         const Double3 way = axis * cosine + (u * turn.cosine + v * turn.sine) * sine;
         if (!(way.z < 0)) continue;
-        const double flux = double(lamp_shape(lamp, float(cosine))) * 2 * kHalfTurn * span / kRays;
+        const double flux = double(lamp_shape(lamp, float(cosine))) * 2 * kPi64 * span / kRays;
         const double metres = std::min(height / -way.z, kFarthest * height);
         out.flux += flux;
         out.middle[0] += flux * way.x * metres;
@@ -157,16 +156,16 @@ LampParams spot_on_ground(const LampParams& lamp, const Lighting& light, const M
     LampParams spot = lamp;
     spot.strength = 0;
     for (float& part : spot.light) part = 0;
-    const double height = double(lamp.at[2]) - light.ground_z;
-    if (!light.ground || !(light.ground_albedo > 0) || lamp.parallel != 0 || height < 0)
+    const double height = double(lamp.at[2]) - light.ground.z;
+    if (!light.ground.present || !(light.ground.albedo > 0) || lamp.parallel != 0 || height < 0)
         return spot;
     const LitGround lit = lit_ground(lamp, height);
     const double depth = depth_to_ground(medium, lamp.at, height);
     if (depth > kMaxDepth) return spot;
     // A flux F leaves the ground with the intensity F cos / pi.
-    const double sent = light.ground_albedo / kHalfTurn * lit.flux * double(exp_(float(-depth)));
+    const double sent = light.ground.albedo / kPi64 * lit.flux * double(exp_(float(-depth)));
     for (int a = 0; a < 2; ++a) spot.at[a] = float(double(lamp.at[a]) + lit.middle[a]);
-    spot.at[2] = float(light.ground_z - kBelow * lit.radius);
+    spot.at[2] = float(light.ground.z - kBelow * lit.radius);
     for (int a = 0; a < 3; ++a) spot.axis[a] = a == 2 ? 1.0f : 0.0f;
     spot.edge = 0, spot.slope = 1;
     spot.radius = 0, spot.places = 0;

@@ -14,8 +14,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 double magnitude(double v) { return v < 0 ? -v : v; }
 
 /// Size of a colour whose channels may differ in sign: what its noise grows with.
@@ -63,16 +61,16 @@ void make_sun(const Shining& shining, const Medium& medium, const SunPlace& plac
 /// Radiance of the unshadowed ground: albedo / pi times what falls on it.
 void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map,
                  double elevation_deg, Lighting& out) {
-    out.ground = shining.ground.present;
-    if (!out.ground) return;
+    out.ground.present = shining.ground.present;
+    if (!out.ground.present) return;
     const double height = sincos_deg(elevation_deg).sine;
-    out.ground_z = shining.ground.altitude_m - medium.low_m[2];
-    out.ground_albedo = shining.ground.albedo;
+    out.ground.z = shining.ground.altitude_m - medium.low_m[2];
+    out.ground.albedo = shining.ground.albedo;
     Double3 sky = out.sky;
-    if (map != nullptr) sky = map->ground_irradiance / kPiD;
-    out.ground_diffuse = out.ground_albedo * sky;
-    out.ground_beam = out.ground_albedo / kPiD * out.sun_irradiance * height;
-    out.ground_sun = out.ground_albedo / kPiD * sun_at_height(out, out.ground_z) * height;
+    if (map != nullptr) sky = map->ground_irradiance / kPi64;
+    out.ground.diffuse = out.ground.albedo * sky;
+    out.ground.beam = out.ground.albedo / kPi64 * out.sun_irradiance * height;
+    out.ground.sun = out.ground.albedo / kPi64 * sun_at_height(out, out.ground.z) * height;
 }
 
 bool is_dark(const Medium& medium) { return medium.sigma <= 0 || medium.density_max <= 0; }
@@ -108,11 +106,11 @@ double power_of(const Medium& medium, bool ground, LampEmission& e) {
     }
     if (lamp.edge < -1) {
         aim_emission(medium, ground, e);
-        return double(lamp.strength) * 2 * kPiD * double(e.span);
+        return double(lamp.strength) * 2 * kPi64 * double(e.span);
     }
     for (int a = 0; a < 3; ++a) e.axis[a] = lamp.axis[a];
     const double width = 1 / double(lamp.slope), inner = 1 - (double(lamp.edge) + width);
-    return double(lamp.strength) * 2 * kPiD * ((inner > 0 ? inner : 0) + 0.5 * width);
+    return double(lamp.strength) * 2 * kPi64 * ((inner > 0 ? inner : 0) + 0.5 * width);
 }
 
 /// Radiance that parallel lamps give the unshadowed ground.
@@ -143,7 +141,7 @@ Light lamp_light(const Medium& medium, Lighting& out) {
     for (const LampParams& lamp : out.lamps) {
         LampEmission e{};
         e.lamp = lamp;
-        power.push_back(power_of(medium, out.ground, e));
+        power.push_back(power_of(medium, out.ground.present, e));
         light.power_m2 += power.back();
         out.lamp_emission.push_back(e);
     }
@@ -176,7 +174,7 @@ Light diffuse_light(const Medium& medium, int hemisphere) {
         double share = hemisphere == 0 ? 1.0 : 0.5;
         if (f == 4 && hemisphere != 0) share = hemisphere > 0 ? 1.0 : 0.0;
         if (f == 5 && hemisphere != 0) share = hemisphere < 0 ? 1.0 : 0.0;
-        flux[f] = kPiD * share * face_area(medium, f / 2);
+        flux[f] = kPi64 * share * face_area(medium, f / 2);
     }
     set_faces(flux, light);
     return light;
@@ -209,7 +207,7 @@ Light emission_light(const Medium& medium, std::size_t which) {
     Light light;
     light.emitter = int(which);
     light.face_cdf.fill(1.0f);
-    light.power_m2 = 4 * kPiD * double(medium.sigma) * emitter.mass_m3;
+    light.power_m2 = 4 * kPi64 * double(medium.sigma) * emitter.mass_m3;
     return light;
 }
 
@@ -217,9 +215,9 @@ Lighting sun_alone(const Lighting& all) {
     Lighting sun = all;
     for (Light& light : sun.lights) {
         if (light.beam) continue;
-        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
+        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground.sun;
     }
-    sun.constant = sun.sky = sun.ground_diffuse = sun.ground_lamps = {};
+    sun.constant = sun.sky = sun.ground.diffuse = sun.ground.lamps = {};
     sun.map = SkyMapView{};
     sun.lamps.clear();
     sun.lamp_spots.clear();
@@ -228,8 +226,8 @@ Lighting sun_alone(const Lighting& all) {
 
 Double3 ground_of_lamp(const Lighting& light, const LampParams& lamp) {
     Double3 sum{};
-    for (int c = 0; c < 3 && light.ground && lamp.parallel != 0; ++c)
-        sum[c] = light.ground_albedo / kPiD * double(lamp.light[c]) * double(lamp.at[2]);
+    for (int c = 0; c < 3 && light.ground.present && lamp.parallel != 0; ++c)
+        sum[c] = light.ground.albedo / kPi64 * double(lamp.light[c]) * double(lamp.at[2]);
     return sum;
 }
 
@@ -244,13 +242,13 @@ Double3 sun_at_height(const Lighting& light, double z) {
 
 void set_one_sun(Lighting& light) {
     light.sun_heights = SunHeights{};
-    light.ground_sun = light.ground_beam;
+    light.ground.sun = light.ground.beam;
 }
 
 bool same_shine(const Lighting& a, const Lighting& b) {
     return a.sunlit == b.sunlit && a.sky == b.sky && a.sun_irradiance == b.sun_irradiance &&
-           a.ground == b.ground && a.ground_z == b.ground_z && a.ground_albedo == b.ground_albedo &&
-           same_lamps(a.lamps, b.lamps);
+           a.ground.present == b.ground.present && a.ground.z == b.ground.z &&
+           a.ground.albedo == b.ground.albedo && same_lamps(a.lamps, b.lamps);
 }
 
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
@@ -278,7 +276,7 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
     if (!shining.lamps.empty()) out.lamps = make_lamps(shining.lamps, shining.ground, medium);
     for (const LampParams& lamp : out.lamps)
         out.lamp_spots.push_back(spot_on_ground(lamp, out, medium));
-    out.ground_lamps = ground_of_lamps(out);
+    out.ground.lamps = ground_of_lamps(out);
     if (is_dark(medium)) return out;
     if (out.sunlit) {
         const Light sun = beam_light(medium, -towards_deg(place.azimuth_deg, place.elevation_deg));
@@ -291,16 +289,17 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
     const bool white = is_white(medium);
-    Double3 below = out.ground_radiance();
+    Double3 below = out.ground.radiance();
     if (mapped && map->power_m2 > 0) {
         add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
     } else if (white && any_positive(out.sky) && !shining.solids) {
         out.constant = out.sky;
         below -= out.sky;
     } else if (any_positive(out.sky)) {
-        add_light("sky", kSkyStream, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
+        add_light("sky", kSkyStream, out.sky, diffuse_light(medium, out.ground.present ? -1 : 0),
+                  out);
     }
-    if (out.ground && below != Double3{})
+    if (out.ground.present && below != Double3{})
         add_light("ground", kGroundStream, below, diffuse_light(medium, 1), out);
     for (std::size_t e = 0; e < medium.emitters.size(); ++e) {
         const int which = medium.emitters[e].medium;
@@ -325,7 +324,7 @@ void explain_lighting(const Shining& shining, const Medium& medium, const SunPla
     if (hidden != nullptr) plan.leave_out("sun", hidden);
     if (made.sunlit && shining.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
-    if (!made.ground) plan.leave_out("ground bounce", "no ground");
+    if (!made.ground.present) plan.leave_out("ground bounce", "no ground");
     explain_lamps(shining.lamps, shining.ground, medium, plan);
     if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
     if (is_dark(medium)) return plan.leave_out("photons", "no medium to scatter them");

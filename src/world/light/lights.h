@@ -39,6 +39,18 @@ struct Light {
     std::uint32_t stream = 0;   ///< of random numbers; one per kind of light
 };
 
+/// The ground as a light. Radiances are those of it unshadowed, by what shines on it.
+struct GroundLighting {
+    bool present = false;
+    double z = 0;  ///< m, box-local
+    double albedo = 0;
+    /// Of lamps that of parallel ones, which light it evenly.
+    Double3 diffuse{}, sun{}, lamps{};
+    Double3 beam{};  ///< as `sun`, by the sun as the media have it
+
+    Double3 radiance() const { return diffuse + sun + lamps; }
+};
+
 /// Everything about illumination that is not in the medium.
 struct Lighting {
     const Solids* solids = nullptr;      ///< what casts shadows and hides; null: nothing does
@@ -55,14 +67,7 @@ struct Lighting {
     Double3 sky{};             ///< radiance of a constant sky
     SkyMapView map{};          ///< or a map of it
     bool air = false;          ///< between the camera and all else
-    bool ground = false;
-    double ground_z = 0;  ///< m, box-local
-    double ground_albedo = 0;
-    /// Radiance of the unshadowed ground; of lamps that of parallel ones, which light it evenly.
-    Double3 ground_diffuse{}, ground_sun{}, ground_lamps{};
-    /// As ground_sun, by the sun as the media have it.
-    Double3 ground_beam{};
-    Double3 ground_radiance() const { return ground_diffuse + ground_sun + ground_lamps; }
+    GroundLighting ground;
 
     /// Lists are copied where they lie, never moved: a session has room for the most that it may
     /// have, and frames take none.
@@ -71,14 +76,14 @@ struct Lighting {
     Lighting& operator=(const Lighting&) = default;
     /// Room for all kinds of lights, and for so many lamps.
     void reserve(std::size_t lamp_count) {
-        lights.reserve(kLights ? 4 + std::size_t(kMostMedia) : 4);
+        lights.reserve(kLights ? 4 + std::size_t(kMaxMedia) : 4);
         lamps.reserve(lamp_count);
         lamp_spots.reserve(lamp_count);
         lamp_emission.reserve(lamp_count);
     }
 
     /// Whether rays may end before the sky.
-    bool opaque() const { return ground || solids != nullptr || depth != nullptr; }
+    bool opaque() const { return ground.present || solids != nullptr || depth != nullptr; }
 };
 
 /// What shines on a frame, in the media's coordinates. References outlive the call.

@@ -19,7 +19,7 @@ Status take_plane(const std::string& name, const Image& image, const Channel& fr
     for (std::size_t i = 0; i < from.pixels.size(); ++i) {
         const float v = from.pixels[i];
         const double scaled = double(v) * scale;
-        if (!(v >= 0) || !(scaled <= kMostSkyRadiance))
+        if (!(v >= 0) || !(scaled <= kMaxSkyRadiance))
             return Status::bad_input(name + ": pixel " + std::to_string(i % width) + ' ' +
                                      std::to_string(i / width) + ": " + from.name +
                                      ": no radiance, " + number_text(double(v)) +

@@ -8,8 +8,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kTwoPiD = 6.28318530717958647693;
-
 double magnitude(double v) { return v < 0 ? -v : v; }
 double larger(double a, double b) { return a > b ? a : b; }
 double smaller(double a, double b) { return a < b ? a : b; }
@@ -35,7 +33,7 @@ double integrate(double a, double b, Function f) {
             sum += kWeight[i] * half * (f(middle - half * kAt[i]) + f(middle + half * kAt[i]));
         a = larger(a, end);
     }
-    return sum * kTwoPiD;
+    return sum * kTwoPi64;
 }
 
 /// Most of |sin| over [a, b] turns.
@@ -142,7 +140,7 @@ void light_ground(SkyMap& map) {
             sum[int(c)] += row * level;
         }
     }
-    map.ground_irradiance = sum * kTwoPiD / double(v.columns);
+    map.ground_irradiance = sum * kTwoPi64 / double(v.columns);
 }
 
 double fill_cdf(const double* power, int count, std::int32_t* cdf) {
@@ -174,7 +172,7 @@ Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map) {
     PILEUS_TRY(of_row.resize(rows, "sky map"));
     const double sides = periodic ? 0 : extent_m[2];
     const double face[3] = {extent_m[1] * sides, sides * extent_m[0], extent_m[0] * extent_m[1]};
-    const double turn = kTwoPiD / double(columns);
+    const double turn = kTwoPi64 / double(columns);
     for (std::size_t i = 0; i < rows; ++i) {
         const Part& row = parts.rows[i];
         for (std::size_t j = 0; j < columns; ++j) {

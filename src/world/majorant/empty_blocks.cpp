@@ -25,7 +25,7 @@ struct Line {
 /// Replaces every distance on a line by the least, over all its blocks, of the larger of theirs and
 /// the way to them.
 void spread(const Line& line) {
-    float was[kMostLine];
+    float was[kMaxLine];
     for (int i = 0; i < line.count; ++i) {
         const float v = line.first[std::size_t(i) * line.step];
         was[i] = v > 0 ? 0.0f : -v;
@@ -47,7 +47,7 @@ void spread(const Line& line) {
 }  // namespace
 
 void mark_empty_blocks(Span<float> blocks, const int count[3], int threads) {
-    assert(count[0] <= kMostLine && count[1] <= kMostLine && count[2] <= kMostLine);
+    assert(count[0] <= kMaxLine && count[1] <= kMaxLine && count[2] <= kMaxLine);
     const std::size_t step[3] = {1, std::size_t(count[0]),
                                  std::size_t(count[0]) * std::size_t(count[1])};
     for (float& v : blocks)

@@ -185,7 +185,7 @@ Status choose_block(Span<const float> density, const Grid& grid, double extincti
                     const TrackingCosts& costs, int threads, BlockChoice& choice) {
     choice = BlockChoice{};
     const int whole = std::max(grid.size[0], std::max(grid.size[1], grid.size[2]));
-    int block = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    int block = voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2;
     Buffer<float> fine, coarse;
     PILEUS_TRY(majorant_grid(density, grid, std::min(block, whole), threads, fine));
     double least = 0;

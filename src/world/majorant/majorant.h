@@ -67,7 +67,7 @@ struct BlockChoice {
 };
 
 /// Grids with more voxels than this get no blocks of a single voxel.
-constexpr std::uint64_t kMostSingleVoxels = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxSingleVoxels = std::uint64_t{1} << 24;
 
 /// Predicts the cost of tracking in uniform diffuse light for blocks of 1, 2, 4 ... 32 voxels and
 /// the whole grid: a block of volume V, surface S and majorant M sees sigma M V tentative
@@ -83,7 +83,7 @@ Status choose_block(Span<const float> density, const Grid& grid, double extincti
 constexpr int kLongestLeap = 31;
 
 /// Blocks along a side at most: those of the largest grid, one voxel each, and a ring around them.
-constexpr int kMostLine = 4096 + 2;
+constexpr int kMaxLine = 4096 + 2;
 
 /// Writes -n into every block of count[0] x count[1] x count[2], x fastest, that is not positive:
 /// all blocks within n of it along every axis are not positive either or lie beyond the grid, and n

@@ -15,9 +15,9 @@
 namespace pileus {
 namespace {
 
-constexpr double kMostTiles = 65536;  // along the box: a float then still tells a cell of the tile
-constexpr int kCut = 146;             // two deviations of a noise volume, in half steps of a byte
-constexpr double kWhole = 1 << 20;    // weight of a noise that is alone
+constexpr double kMaxTiles = 65536;  // along the box: a float then still tells a cell of the tile
+constexpr int kCut = 146;            // two deviations of a noise volume, in half steps of a byte
+constexpr double kWhole = 1 << 20;   // weight of a noise that is alone
 constexpr std::uint32_t kLifeSeeds = 0x9e3779b9u;  // between the seeds of two lives
 
 /// A byte's distance from the middle in half steps, cut at two deviations: noise seldom goes
@@ -60,7 +60,7 @@ double period_of(const Medium& medium, double tile_m, std::size_t axis) {
 Status check_tiles(const Scene& scene, const MediumSettings& settings, const Medium& medium) {
     double largest = 0;
     for (const double e : medium.extent_m) largest = e > largest ? e : largest;
-    if (largest <= kMostTiles * settings.detail.tile_m) return Status::ok();
+    if (largest <= kMaxTiles * settings.detail.tile_m) return Status::ok();
     return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
                              ".detail.tile_m: too short for a box of " + number_text(largest) +
                              " m, " + number_text(settings.detail.tile_m) +

@@ -14,7 +14,7 @@ struct Medium;
 
 /// One of a world's media that shines.
 struct Emitter {
-    int medium = 0;      ///< its number, below kMostMedia
+    int medium = 0;      ///< its number, below kMaxMedia
     double mass_m3 = 0;  ///< integral of its density over the box; of an outlined one a bound
     Buffer<std::uint32_t> below;  ///< share of all voxels before one, in 2^-32; empty: outlined
 };

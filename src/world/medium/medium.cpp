@@ -24,7 +24,7 @@ namespace pileus {
 namespace {
 
 /// As of particles; what knows its place may lie farther out than keys can say.
-constexpr double kMostPlace = 1e12;
+constexpr double kMaxPlace = 1e12;
 
 std::string density_key(const Scene& scene, const MediumSettings& settings) {
     return medium_key(scene, settings) + ".density";
@@ -32,7 +32,7 @@ std::string density_key(const Scene& scene, const MediumSettings& settings) {
 
 /// Cells of a density that the program makes.
 std::array<int, 3> made_size(const MediumSettings& settings, const DensityOutline& outline) {
-    return settings.resolution[0] > 0 ? settings.resolution : outline.size;
+    return settings.box.resolution[0] > 0 ? settings.box.resolution : outline.size;
 }
 
 /// Cells that a host has in memory.
@@ -54,11 +54,11 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
         return row->make(settings, {size, threads, kernels, sky, scene.world.wind_s}, volume);
     }
     const std::string path = density_path(scene, settings);
-    const bool particles = is_particle_format(settings.format);
+    const bool particles = is_particle_format(settings.source.format);
     PILEUS_TRY(at_key(scene, density_key(scene, settings),
                       particles ? read_particle_volume(settings, path, threads, given, volume)
-                                : read_volume(settings, path, volume)));
-    if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
+                                : read_volume(settings, path, volume, given.weather)));
+    if (settings.source.y_up) PILEUS_TRY(permute_y_up(volume));
     return Status::ok();
 }
 
@@ -88,7 +88,7 @@ Status check_box(const std::array<Double3, 2>& bounds_m) {
     for (std::size_t a = 0; a < 3; ++a) {
         const double low = bounds_m[0][int(a)], high = bounds_m[1][int(a)];
         const double least = least_width(low, high);
-        if (high - low >= least && low >= -kMostPlace && high <= kMostPlace) continue;
+        if (high - low >= least && low >= -kMaxPlace && high <= kMaxPlace) continue;
         return Status::bad_input(std::string("a box along ") + "xyz"[a] + " from " +
                                  number_text(low) + " to " + number_text(high) +
                                  " m, allowed: at least " + number_text(least) +
@@ -100,16 +100,16 @@ Status check_box(const std::array<Double3, 2>& bounds_m) {
 /// Everything about a medium but its values.
 Status place_medium(const Scene& scene, const MediumSettings& settings, const VolumeHead& head,
                     Medium& out) {
-    if (!settings.has_bounds && !head.knows_bounds)
+    if (!settings.box.has_bounds && !head.knows_bounds)
         return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
-                                 ".bounds_m: left out, and the file \"" + settings.file +
+                                 ".bounds_m: left out, and the file \"" + settings.source.file +
                                  "\" does not know its place");
-    const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
-    const std::string box_key = settings.has_bounds ? ".bounds_m" : ".density";
+    const auto& bounds = settings.box.has_bounds ? settings.box.bounds_m : head.bounds_m;
+    const std::string box_key = settings.box.has_bounds ? ".bounds_m" : ".density";
     PILEUS_TRY(at_key(scene, medium_key(scene, settings) + box_key, check_box(bounds)));
     out.low_m = bounds[0];
-    out.grid.periodic = settings.periodic;
-    out.grid.constant = settings.constant;
+    out.grid.periodic = settings.box.periodic;
+    out.grid.constant = settings.box.constant;
     for (std::size_t a = 0; a < 3; ++a) {
         out.extent_m[a] = bounds[1][a] - bounds[0][a];
         out.grid.size[a] = head.size[a];
@@ -118,24 +118,24 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
     // A file's extinction is known only from its values; until then any but none stands for it.
     const DensityRow* row = density_row(settings.density);
     const bool scaled = row != nullptr && row->factor != nullptr;
-    const double per_m = settings.extinction_per_m * (scaled ? row->factor(settings) : 1);
-    out.sigma = float(head.in_extinction ? settings.extinction_scale : per_m);
+    const double per_m = settings.optics.extinction_per_m * (scaled ? row->factor(settings) : 1);
+    out.sigma = float(head.in_extinction ? settings.optics.extinction_scale : per_m);
     Optics& optics = out.optics[0];
     optics.albedo_max = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-        optics.albedo[c] = settings.albedo[c];
+        optics.albedo[c] = settings.optics.albedo[c];
         if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
         // Both keys belong to the same density: the values' own unit, or 1.
-        const double unit =
-            head.in_extinction ? settings.extinction_scale : settings.extinction_per_m;
-        optics.emission[c] = unit > 0 ? float(double(settings.emission[c]) / unit) : 0;
+        const double unit = head.in_extinction ? settings.optics.extinction_scale
+                                               : settings.optics.extinction_per_m;
+        optics.emission[c] = unit > 0 ? float(double(settings.optics.emission[c]) / unit) : 0;
     }
-    const bool grey =
-        settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
+    const bool grey = settings.optics.albedo[0] == settings.optics.albedo[1] &&
+                      settings.optics.albedo[1] == settings.optics.albedo[2];
     out.channels = grey ? 1 : 3;
     PhaseStore store;
     PILEUS_TRY(at_key(scene, medium_key(scene, settings) + ".phase.file",
-                      load_phase(scene.directory, settings.phase, store, optics.phase)));
+                      load_phase(scene.directory, settings.optics.phase, store, optics.phase)));
     out.phases.clear();
     if (!store.table.empty()) out.phases.push_back(std::move(store));
     return Status::ok();
@@ -155,22 +155,22 @@ void outline_shape(const DensityRow& row, const MediumSettings& settings, Volume
 Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
                     const MediumValues& given, VolumeHead& head, MediumSource& source) {
     const std::string path = density_path(scene, settings);
-    const bool particles = is_particle_format(settings.format);
+    const bool particles = is_particle_format(settings.source.format);
     const auto read_head = [&] {
         return particles ? read_particle_head(settings, path, given, head)
-                         : read_volume_head(settings, path, head);
+                         : read_volume_head(settings, path, head, given.weather);
     };
     if (given.particles != nullptr) {
         PILEUS_TRY(at_key(scene, density_key(scene, settings), read_head()));
         source.reading_bytes = head.unpacked_bytes;
-        if (settings.y_up) turn_y_up(head.size, head.bounds_m);
+        if (settings.source.y_up) turn_y_up(head.size, head.bounds_m);
         return Status::ok();
     }
-    const bool raw = settings.raw_size[0] > 0;
-    if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
+    const bool raw = settings.source.raw_size[0] > 0;
+    if (raw) PILEUS_TRY(check_voxels(scene.file, settings.source.raw_size, limits));
     const std::string key = density_key(scene, settings);
     std::uint64_t bytes = 0;
-    PILEUS_TRY(at_key(scene, key, density_file_bytes(settings, path, bytes)));
+    PILEUS_TRY(at_key(scene, key, density_file_bytes(settings, path, bytes, given.weather)));
     PILEUS_TRY(at_key(scene, key, check_limit(limits, LimitId::kFile, bytes, path)));
     // Bare numbers pass through in pieces of 65536; every other form is held whole.
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
@@ -178,7 +178,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     PILEUS_TRY(at_key(scene, key, read_head()));
     if (head.in_pieces) source.reading_bytes = 0;
     source.reading_bytes += head.unpacked_bytes;
-    if (settings.y_up) turn_y_up(head.size, head.bounds_m);
+    if (settings.source.y_up) turn_y_up(head.size, head.bounds_m);
     return Status::ok();
 }
 
@@ -186,10 +186,10 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
 
 Status hold_extinction(const std::string& where, Medium& medium) {
     const double per_m = max_extinction(medium);
-    if (!(per_m <= kMostSigma))
+    if (!(per_m <= kMaxSigma))
         return Status::bad_input(where + ": " + number_text(per_m) +
                                  " per m where it is densest, allowed: at most " +
-                                 number_text(kMostSigma));
+                                 number_text(kMaxSigma));
     double square = 0;
     for (const double e : medium.extent_m) square += e * e;
     if (per_m < kLeastSigma || per_m * __builtin_sqrt(square) < kLeastSigma) medium.sigma = 0;
@@ -260,14 +260,14 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
     else
         PILEUS_TRY(outline_file(scene, settings, limits, given, head, source));
     PILEUS_TRY(check_voxels(scene.file, head.size, limits));
-    if (settings.y_up)
+    if (settings.source.y_up)
         source.turned_voxels =
             std::uint64_t(head.size[0]) * std::uint64_t(head.size[1]) * std::uint64_t(head.size[2]);
     out.volume.size = head.size;
     out.volume.in_extinction = head.in_extinction;
     out.density_max = 1;
     // What a transfer function makes of the values is not known before them.
-    if (!settings.transfer.empty()) source.mean_density = -1;
+    if (!settings.optics.transfer.empty()) source.mean_density = -1;
     PILEUS_TRY(place_medium(scene, settings, head, out));
     return outline_detail(scene, settings, limits, out, source);
 }
@@ -281,9 +281,9 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     head.bounds_m = out.volume.bounds_m;
     head.in_extinction = out.volume.in_extinction;
     PILEUS_TRY(place_medium(scene, settings, head, out));
-    if (!settings.transfer.empty()) return Status::ok();
+    if (!settings.optics.transfer.empty()) return Status::ok();
     out.density_max = hold_densities(out.volume);
-    if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
+    if (out.volume.in_extinction) set_peak_to_one(settings.optics.extinction_scale, out);
     PILEUS_TRY(hold_extinction(medium_key(scene, settings), out));
     return add_detail(scene, settings, threads, kernels, out);
 }

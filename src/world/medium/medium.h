@@ -37,8 +37,8 @@ struct Medium {
     float sigma = 0;      ///< extinction at density 1, 1/m
     int channels = 1;     ///< 1: achromatic
     float density_max = 0;
-    int count = 1;  ///< media on this grid, 1..kMostMedia; `volume` holds their sum
-    std::array<Optics, kMostMedia> optics{};
+    int count = 1;  ///< media on this grid, 1..kMaxMedia; `volume` holds their sum
+    std::array<Optics, kMaxMedia> optics{};
     MediumDetail detail;
     Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
     std::vector<PhaseStore> phases;  ///< tables that `optics` points into

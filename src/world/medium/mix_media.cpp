@@ -180,7 +180,7 @@ struct MediaList {
     /// One of the scene, as it is or colour by colour.
     Status add_all(const Scene& scene, std::size_t name, Medium medium, Plan& plan) {
         const bool last = name + 1 == scene.media.size();
-        const std::vector<TransferRow>& rows = scene.media[name].transfer;
+        const std::vector<TransferRow>& rows = scene.media[name].optics.transfer;
         const std::string detail = told_detail(name, scene.media[name].detail);
         if (!detail.empty()) plan.need(detail.c_str());
         if (rows.empty()) {
@@ -199,7 +199,7 @@ struct MediaList {
 
     MixGrid plan_grid(const Limits& limits, Plan& plan) const {
         const std::uint64_t most = limits[LimitId::kVoxels];
-        const MixGrid grid = plan_mix(boxes, most < kMostMixedVoxels ? most : kMostMixedVoxels);
+        const MixGrid grid = plan_mix(boxes, most < kMaxMixedVoxels ? most : kMaxMixedVoxels);
         if (media.size() == 1)
             plan.leave_out("mixing of media", "one medium");
         else

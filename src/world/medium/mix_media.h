@@ -11,7 +11,7 @@
 
 namespace pileus {
 
-constexpr std::uint64_t kMostMixedVoxels = std::uint64_t{1} << 27;
+constexpr std::uint64_t kMaxMixedVoxels = std::uint64_t{1} << 27;
 
 /// A medium's box and how finely it is divided.
 struct MixBox {
@@ -28,7 +28,7 @@ struct MixGrid {
 /// Along each axis the finest voxel edge of all media, stretched to divide the union evenly; all
 /// edges grow by one factor where there would be more than `most` voxels, and none becomes more
 /// than 4096 to a side. Needs at least one box.
-MixGrid plan_mix(const std::vector<MixBox>& boxes, std::uint64_t most = kMostMixedVoxels);
+MixGrid plan_mix(const std::vector<MixBox>& boxes, std::uint64_t most = kMaxMixedVoxels);
 
 /// Adds up the media, which are emptied. The sum's sigma is the largest of theirs; the mass times
 /// sigma of each medium is kept. One medium is handed on as it is. kLimit: out of memory.

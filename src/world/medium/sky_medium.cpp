@@ -12,8 +12,8 @@ namespace {
 /// A layer without bounds has a box around the camera, where floats tell places best.
 MediumSettings placed(const Scene& scene) {
     MediumSettings settings = scene.media[0];
-    settings.periodic = false;
-    if (settings.has_bounds) return settings;
+    settings.box.periodic = false;
+    if (settings.box.has_bounds) return settings;
     constexpr double kReach = 16000, kSpare = 50;  // a bent layer sinks by 40 m in a corner
     const Double3& camera = scene.camera.position_m;
     Double3 low, high;
@@ -22,8 +22,8 @@ MediumSettings placed(const Scene& scene) {
         high[a] = low[a] + 2 * kReach;
     }
     low[2] = settings.sky.base_m - kSpare, high[2] = settings.sky.top_m + kSpare;
-    settings.has_bounds = true;
-    settings.bounds_m = {low, high};
+    settings.box.has_bounds = true;
+    settings.box.bounds_m = {low, high};
     return settings;
 }
 
@@ -46,7 +46,7 @@ Status outline_sky(const Scene& scene, const Limits& limits, Medium& medium, Med
 Status load_sky(const Scene& scene, const Context& context, Medium& medium, SkyField& sky) {
     const MediumSettings& settings = scene.media[0];
     PILEUS_TRY(load_medium(scene, placed(scene), context.threads, medium, context.kernels, &sky));
-    bound_sky(settings.has_bounds && !settings.periodic ? medium.extent_m : nullptr, sky);
+    bound_sky(settings.box.has_bounds && !settings.box.periodic ? medium.extent_m : nullptr, sky);
     // The grid may miss what the noise holds: it must not tell that there is nothing.
     if (settings.sky.coverage != 0 && !(medium.density_max > 0)) medium.density_max = 1;
     return Status::ok();

@@ -281,9 +281,9 @@ private:
 Status make_particle_tree(const ParticleSet& set, const Double3& low, int most_in_leaf, int threads,
                           ParticleTree& tree) {
     tree = ParticleTree();
-    if (set.count > kMostTreeParticles)
+    if (set.count > kMaxTreeParticles)
         return Status::limit("particles: " + std::to_string(set.count) + ", allowed: at most " +
-                             std::to_string(kMostTreeParticles));
+                             std::to_string(kMaxTreeParticles));
     if (set.count == 0) return tree.nodes.resize(1, arrays::particle_nodes(0).name);
     return Builder(set, low, most_in_leaf, threads, tree).build();
 }

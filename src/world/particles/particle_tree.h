@@ -27,7 +27,7 @@ struct ParticleTree {
 /// Levels below the root: bits of a place along each axis.
 constexpr int kParticleLevels = 21;
 /// Most particles that nodes and balls are numbered for.
-constexpr std::uint64_t kMostTreeParticles = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxTreeParticles = std::uint64_t{1} << 30;
 
 namespace arrays {
 

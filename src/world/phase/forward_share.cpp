@@ -10,8 +10,6 @@
 namespace pileus {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647693;
-
 /// Of Henyey-Greenstein up to 1 - cos = x: the integral of (1 - g^2)/2 (a^2 + 2 g x)^-1.5 with
 /// a = 1 - g, brought to a form in which nothing cancels, at g = 0 either.
 double hg_share(double g, double x) {
@@ -31,7 +29,7 @@ double draine_share(const PhaseParams& p, double limit) {
         const float x = float(limit * u * u * u);
         sum += weight * 3 * u * u * double(draine_density(p.g2, p.alpha, x));
     }
-    return kTwoPi * limit * sum / (6.0 * kPanels);
+    return kTwoPi64 * limit * sum / (6.0 * kPanels);
 }
 
 double at_most_one(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
@@ -72,7 +70,7 @@ double forward_share_by_density(const PhaseParams& p, double half_deg) {
         inner = outer > 0x1p-24 ? 0.5 * outer : 0;
         if (x > 2 - outer) sum += panel(p, 2 - outer, x < 2 - inner ? x : 2 - inner);
     }
-    return at_most_one(kTwoPi * sum);
+    return at_most_one(kTwoPi64 * sum);
 }
 
 double forward_share(const PhaseParams& p, double half_deg) {

@@ -43,7 +43,8 @@ constexpr double kCloudRadius[] = {5.77, 4, 12.68, 7.33, 11.3, 10.7};
 
 constexpr KeyField kCloud{KeyKind::kChoice, [](const KeySource&) { return no_value(); },
                           [](const KeyTarget& t, const Node& n) {
-                              t.medium.phase.numbers[kRadius.name()] = kCloudRadius[n.integer];
+                              t.medium.optics.phase.numbers[kRadius.name()] =
+                                  kCloudRadius[n.integer];
                           }};
 
 constexpr KeyRow kKeys[] = {

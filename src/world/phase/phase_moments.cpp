@@ -37,7 +37,6 @@ int panels_of(const PhaseTable& t, std::int32_t cell, int count) {
 }  // namespace
 
 void phase_table_moments(const PhaseTable& t, int count, double* moment) {
-    constexpr double kTwoPi = 6.28318530717958647693;
     for (int l = 0; l < count; ++l) moment[l] = 0;
     for (std::int32_t cell = 0; cell < t.cells; ++cell) {
         const double first = double(t.density[cell]), last = double(t.density[cell + 1]);
@@ -52,13 +51,12 @@ void phase_table_moments(const PhaseTable& t, int count, double* moment) {
             const double near = base + width * (front ? f : 1 - f);
             const double density = first + (last - first) * f;
             add_light(front ? 1 - near : near - 1,
-                      kTwoPi * density * 0.5 * kWeight[k] * width / panels, count, moment);
+                      kTwoPi64 * density * 0.5 * kWeight[k] * width / panels, count, moment);
         }
     }
 }
 
 double phase_table_share(const PhaseTable& t, double angle_deg) {
-    constexpr double kTwoPi = 6.28318530717958647693;
     const SineCosine half = sincos_deg(0.5 * angle_deg);
     const double minus = 2 * half.sine * half.sine, plus = 2 * half.cosine * half.cosine;
     double sum = 0;
@@ -68,15 +66,15 @@ double phase_table_share(const PhaseTable& t, double angle_deg) {
         if (!(part > 0)) break;
         const double f = part < 1 ? part : 1;
         const double first = double(t.density[cell]), last = double(t.density[cell + 1]);
-        sum += kTwoPi * width * f * (first + 0.5 * f * (last - first));
+        sum += kTwoPi64 * width * f * (first + 0.5 * f * (last - first));
     }
     return sum;
 }
 
 Status phase_nodes_from_moments(Span<const double> moment, PhaseNodes& nodes, double& clipped) {
-    assert(moment.size >= 1 && moment.size <= kMostPhaseMoments);
+    assert(moment.size >= 1 && moment.size <= kMaxPhaseMoments);
     const std::size_t wanted = 16 * moment.size < 720 ? 720 : 16 * moment.size;
-    const std::size_t cells = wanted < kMostPhaseNodes ? wanted : kMostPhaseNodes - 1;
+    const std::size_t cells = wanted < kMaxPhaseNodes ? wanted : kMaxPhaseNodes - 1;
     PILEUS_TRY(nodes.angle_deg.resize(cells + 1, "phase table"));
     PILEUS_TRY(nodes.value.resize(cells + 1, "phase table"));
     double light = 0, below = 0;

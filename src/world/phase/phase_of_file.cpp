@@ -10,7 +10,8 @@ namespace pileus {
 namespace {
 
 constexpr KeyRow kKeys[] = {
-    {"medium.N.phase.file", field<&MediumSettings::phase, &PhaseSettings::file>, any(), "",
+    {"medium.N.phase.file",
+     field<&MediumSettings::optics, &MediumOptics::phase, &PhaseSettings::file>, any(), "",
      "path of a table of angles and values, or of Legendre moments, relative to the scene "
      "file; required by both",
      kNoNote}};
@@ -32,7 +33,7 @@ Status make_moments(const std::string& directory, const PhaseSettings& settings,
     double clipped = 0;
     PILEUS_TRY(read_phase_moments(path, moments));
     PILEUS_TRY(make_phase_from_moments(path, moments.span(), store, clipped));
-    if (clipped > kMostClipped)
+    if (clipped > kMaxClipped)
         return Status::bad_input(path + ": moments: their sum is negative over " +
                                  std::to_string(clipped) +
                                  " of the light, allowed: at most 0.01; more moments, or a table");

@@ -9,8 +9,7 @@
 namespace pileus {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647693;
-constexpr double kMostPeak = 1e15;
+constexpr double kMaxPeak = 1e15;
 constexpr float kLeastWidth = 1e-37f;
 
 std::int32_t slots_of(std::size_t cells) {
@@ -58,7 +57,7 @@ void set_cells(const PhaseNodes& nodes, Arrays& a, PhaseTable& table) {
 
 /// Light of a cell that is linear in the cosine.
 double light_of(double first, double last, float width) {
-    return 0.5 * kTwoPi * (first + last) * double(width);
+    return 0.5 * kTwoPi64 * (first + last) * double(width);
 }
 
 Status set_density(const std::string& name, const PhaseNodes& nodes, Arrays& a, PhaseTable& table) {
@@ -69,7 +68,7 @@ Status set_density(const std::string& name, const PhaseNodes& nodes, Arrays& a, 
         return Status::bad_input(name + ": values: all zero, allowed: one above 0 at the least");
     for (std::size_t i = 0; i + 1 < a.nodes; ++i)
         light += light_of(nodes.value[i] / largest, nodes.value[i + 1] / largest, a.width[i]);
-    if (!(1 / light < kMostPeak))
+    if (!(1 / light < kMaxPeak))
         return Status::bad_input(name +
                                  ": values: a peak too narrow, allowed: up to 1e15 per "
                                  "steradian once the light over the sphere is 1");
@@ -127,7 +126,7 @@ void point_into(PhaseStore& store) {
 bool is_whole(const PhaseStore& store) {
     if (store.table.size() != 1) return false;
     const PhaseTable& table = store.table[0];
-    const std::int64_t most = std::int64_t(kMostPhaseNodes);
+    const std::int64_t most = std::int64_t(kMaxPhaseNodes);
     return table.cells >= 1 && table.cells < most && table.slots >= 1 && table.slots <= 2 * most &&
            store.numbers.size() == 5 * (std::size_t(table.cells) + 1) &&
            store.guides.size() == 2 * (std::size_t(table.slots) + 1);
@@ -135,7 +134,7 @@ bool is_whole(const PhaseStore& store) {
 
 Status make_phase_table(const std::string& name, const PhaseNodes& nodes, PhaseStore& out) {
     const std::size_t count = nodes.value.size(), cells = count - 1;
-    assert(count >= 2 && count <= kMostPhaseNodes && nodes.angle_deg.size() == count);
+    assert(count >= 2 && count <= kMaxPhaseNodes && nodes.angle_deg.size() == count);
     const std::int32_t slots = slots_of(cells);
     PILEUS_TRY(out.table.resize(1, "phase table"));
     PILEUS_TRY(out.numbers.resize(5 * count, "phase table"));

@@ -24,13 +24,13 @@ void point_into(PhaseStore& store);
 bool is_whole(const PhaseStore& store);
 
 /// Largest share of the light that moments may be short of a phase function in a scene.
-constexpr double kMostClipped = 0.01;
+constexpr double kMaxClipped = 0.01;
 
 /// Normalises to one over the sphere. kBadInput, opened with `name`: no light at all, or more than
 /// 1e15 per steradian; kLimit: out of memory.
 Status make_phase_table(const std::string& name, const PhaseNodes& nodes, PhaseStore& out);
 
-/// Nodes of sum (2l+1) moment[l] P_l(cos), moment[0] = 1, |moment| <= 1, at most kMostPhaseMoments:
+/// Nodes of sum (2l+1) moment[l] P_l(cos), moment[0] = 1, |moment| <= 1, at most kMaxPhaseMoments:
 /// 16 nodes a degree, 721 at the least, evenly in angle. What lies below 0 is set to 0; `clipped`
 /// is the light that this adds, as a share of all. kLimit: out of memory.
 Status phase_nodes_from_moments(Span<const double> moment, PhaseNodes& nodes, double& clipped);

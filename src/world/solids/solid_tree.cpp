@@ -12,7 +12,7 @@ namespace pileus {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kMostInLeaf = 4;
+constexpr std::uint32_t kMaxInLeaf = 4;
 constexpr int kSahDepth = 40;  // below: halves by number, at most 27 levels more
 constexpr float kNodeCost = 1.0f;
 
@@ -116,7 +116,7 @@ std::uint32_t part(Span<Item> items, const Box& box, int depth, int& axis) {
     if (depth < kSahDepth)
         for (int a = 0; a < 3; ++a) try_axis({items.data, items.size}, middles, a, best, split);
     const float leaf = box.area() * (float(n) - kNodeCost);
-    if (n <= kMostInLeaf && (split.axis < 0 || !(best < leaf))) return n;
+    if (n <= kMaxInLeaf && (split.axis < 0 || !(best < leaf))) return n;
     if (split.axis < 0) return n / 2;  // all in one place, or too deep: halves by number
     axis = split.axis;
     Item* end = std::stable_partition(items.data, items.data + items.size,

@@ -75,7 +75,7 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
             const Double3 p = vector_of(corners.data + at + 3 * i);
             const Double3 placed = turn * p * settings.scale + shift;
             for (int r = 0; r < 3; ++r) {
-                if (!(placed[r] >= -kMostSolidMetres && placed[r] <= kMostSolidMetres))
+                if (!(placed[r] >= -kMaxSolidMetres && placed[r] <= kMaxSolidMetres))
                     return Status::bad_input(name + ": mesh: triangle " + std::to_string(at / 9) +
                                              ": too far away, allowed: within 1e10 m of the media");
                 t.corner[i][r] = float(placed[r]);

@@ -12,7 +12,7 @@
 namespace pileus {
 
 /// Coordinates stay within this of the medium's box, metres.
-constexpr double kMostSolidMetres = 1e10;
+constexpr double kMaxSolidMetres = 1e10;
 
 struct Solids {
     bool meshes = false;  ///< the scene has some; the arrays may not be there yet

@@ -28,18 +28,18 @@ const char* const kKeys[] = {"liquid",
                              "variable"};
 
 const std::string& wanted_name(const WeatherSettings& s, Role role) {
-    const std::string* const names[] = {&s.liquid,
-                                        &s.ice,
-                                        &s.cloud_fraction,
-                                        &s.temperature,
-                                        &s.pressure,
-                                        &s.height,
-                                        &s.humidity,
-                                        &s.liquid_radius,
-                                        &s.ice_radius,
-                                        &s.surface_pressure,
-                                        &s.surface_geopotential,
-                                        &s.variable};
+    const std::string* const names[] = {&s.names.liquid,
+                                        &s.names.ice,
+                                        &s.names.cloud_fraction,
+                                        &s.names.temperature,
+                                        &s.names.pressure,
+                                        &s.names.height,
+                                        &s.names.humidity,
+                                        &s.names.liquid_radius,
+                                        &s.names.ice_radius,
+                                        &s.names.surface_pressure,
+                                        &s.names.surface_geopotential,
+                                        &s.names.variable};
     return *names[std::size_t(role)];
 }
 
@@ -134,7 +134,7 @@ public:
     Status field(Role role, const WeatherAxes& axes, WeatherField& out) const {
         const WeatherName* row = nullptr;
         out = WeatherField();
-        if (!settings_.variable.empty() && is_of_water(role)) return Status::ok();
+        if (!settings_.names.variable.empty() && is_of_water(role)) return Status::ok();
         PILEUS_TRY(parts(role, &axes, out.parts, row));
         if (!out.there()) return Status::ok();
         NcPacking packing;

@@ -10,11 +10,11 @@ namespace pileus {
 namespace {
 
 constexpr double kSnap = 1e-6;  // of a cell
-constexpr int kMostLayers = 1024;
+constexpr int kMaxLayers = 1024;
 
 /// Light is kept by cell, so a thick layer of the file is cut into cells of two optical depths, up
 /// to sixteen to a layer, as long as the grid stays below 2^24 cells.
-constexpr double kDepthOfCell = 2, kMostOfLayer = 16, kMostCells = 0x1p24;
+constexpr double kDepthOfCell = 2, kMaxOfLayer = 16, kMaxCells = 0x1p24;
 
 /// Footprint of a column: its edges in metres.
 struct Rectangle {
@@ -125,12 +125,12 @@ Status weather_grid(const WeatherSource& s, const WeatherSurvey& survey,
     if (survey.cloudy > 0) {
         const double mean = survey.thickness_m / double(survey.cloudy);
         const double count = (survey.high_m - survey.low_m) / mean + 0.5;
-        layers = count < kMostLayers ? std::int64_t(count) : kMostLayers;
+        layers = count < kMaxLayers ? std::int64_t(count) : kMaxLayers;
         if (layers < 1) layers = 1;
         double cut = survey.most_extinction * (survey.high_m - survey.low_m) / kDepthOfCell;
         const double columns = double(g.nx()) * double(g.ny());
         for (const double most :
-             {kMostOfLayer * double(layers), kMostCells / columns, double(kMostLayers)})
+             {kMaxOfLayer * double(layers), kMaxCells / columns, double(kMaxLayers)})
             cut = cut < most ? cut : most;
         if (cut > double(layers)) layers = std::int64_t(cut + 0.5);
     }

@@ -114,7 +114,7 @@ private:
     }
 
     double width_or(double fallback) const {
-        return settings_.width_m > 0 ? settings_.width_m : fallback;
+        return settings_.place.width_m > 0 ? settings_.place.width_m : fallback;
     }
 
     /// Widths of what has a single place: the scene's, or the mean step of the other direction.
@@ -136,7 +136,7 @@ private:
 
     Status metres(const std::vector<double>& x, const std::vector<double>& y, double x_width,
                   double y_width, const char* text) {
-        if (settings_.origin_deg[0] < 1e8)
+        if (settings_.place.origin_deg[0] < 1e8)
             return Status::bad_input(file_.name() +
                                      ": origin_deg: the file's coordinates are metres, allowed: "
                                      "left out");
@@ -165,7 +165,8 @@ private:
         }
         double x_width = 0, y_width = 0;
         const double middle_cosine = sincos_deg(0.5 * (y.front() + y.back())).cosine;
-        const double squeeze = settings_.plain_degrees || middle_cosine < 1e-3 ? 1 : middle_cosine;
+        const double squeeze =
+            settings_.place.plain_degrees || middle_cosine < 1e-3 ? 1 : middle_cosine;
         widths(x, y, kMetresPerDegree * squeeze, kMetresPerDegree, x_width, y_width);
         PILEUS_TRY(edges("longitudes", x, x_width, ground_.x_edges, ground_.x_flipped));
         PILEUS_TRY(edges("latitudes", y, y_width, ground_.y_edges, ground_.y_flipped));
@@ -178,13 +179,13 @@ private:
             if (edge > 90) edge = 90;
         }
         std::vector<double> scale(y.size(), 1.0);
-        for (std::size_t j = 0; j < y.size() && !settings_.plain_degrees; ++j)
+        for (std::size_t j = 0; j < y.size() && !settings_.place.plain_degrees; ++j)
             scale[j] = mean_cosine(ye[j], ye[j + 1]);
         double lon = 0.5 * (ground_.x_edges.front() + ground_.x_edges.back());
         double lat = 0.5 * (ye.front() + ye.back());
-        if (settings_.origin_deg[0] < 1e8) {
-            lon = settings_.origin_deg[0];
-            lat = settings_.origin_deg[1];
+        if (settings_.place.origin_deg[0] < 1e8) {
+            lon = settings_.place.origin_deg[0];
+            lat = settings_.place.origin_deg[1];
             // The turn of the file's longitudes that lies nearest.
             const double middle = 0.5 * (ground_.x_edges.front() + ground_.x_edges.back());
             while (lon < middle - 180) lon += 360;
@@ -204,8 +205,9 @@ private:
             for (double& edge : ground_.x_edges) edge = (edge - lon) * kMetresPerDegree;
         }
         for (double& edge : ye) edge = (edge - lat) * kMetresPerDegree;
-        ground_.text = settings_.plain_degrees ? "degrees as metres, without the cosine of latitude"
-                                               : "degrees as metres, with the cosine of latitude";
+        ground_.text = settings_.place.plain_degrees
+                           ? "degrees as metres, without the cosine of latitude"
+                           : "degrees as metres, with the cosine of latitude";
         return finish(scale);
     }
 

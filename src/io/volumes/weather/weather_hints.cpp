@@ -51,9 +51,9 @@ std::string names_of(const List& list) {
 Status check_hints(const NcFile& file, const WeatherSettings& settings) {
     const NcHead& head = file.head();
     Pairs pairs;
-    if (!read_pairs(settings.axes, pairs))
+    if (!read_pairs(settings.names.axes, pairs))
         return fault(file, "axes",
-                     "not understood, " + quote_text(settings.axes) +
+                     "not understood, " + quote_text(settings.names.axes) +
                          ", allowed: as \"x: ni, y: nj, level: nk\"");
     for (const auto& [axis, name] : pairs) {
         if (axis_named(axis) == AxisKind::kUnknown)
@@ -67,9 +67,9 @@ Status check_hints(const NcFile& file, const WeatherSettings& settings) {
                          "no such dimension, " + quote_text(name) +
                              ", allowed: " + names_of(head.dimensions));
     }
-    if (!read_pairs(settings.units, pairs))
+    if (!read_pairs(settings.names.units, pairs))
         return fault(file, "units",
-                     "not understood, " + quote_text(settings.units) +
+                     "not understood, " + quote_text(settings.names.units) +
                          ", allowed: as \"ql: kg kg-1, x: km\"");
     for (const auto& pair : pairs)
         if (head.find(pair.first) == nullptr)
@@ -81,7 +81,7 @@ Status check_hints(const NcFile& file, const WeatherSettings& settings) {
 
 std::string hinted_axis(const WeatherSettings& settings, const std::string& dimension) {
     Pairs pairs;
-    if (settings.axes.empty() || !read_pairs(settings.axes, pairs)) return "";
+    if (settings.names.axes.empty() || !read_pairs(settings.names.axes, pairs)) return "";
     for (const auto& pair : pairs)
         if (pair.second == dimension) return pair.first;
     return "";
@@ -91,7 +91,7 @@ Status read_unit(const NcFile& file, const WeatherSettings& settings, const NcVa
                  std::string& text, bool& there) {
     Pairs pairs;
     there = true;
-    if (!settings.units.empty() && read_pairs(settings.units, pairs))
+    if (!settings.names.units.empty() && read_pairs(settings.names.units, pairs))
         for (const auto& pair : pairs)
             if (pair.first == variable.name) {
                 text = pair.second;

@@ -14,11 +14,11 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kBlockValues = std::uint64_t{1} << 19;
-constexpr double kUndershoot = -1e-6;   // kg/kg; below it water is a fault
-constexpr double kMostWater = 0.5;      // kg/kg or kg/m3
-constexpr double kMostShown = 1e30;     // as the values of a transfer function
-constexpr double kLeastFraction = 0.1;  // clouds in less are as dense as in this
-constexpr double kNoFraction = 0.01;    // below it the fraction knows nothing of the water
+constexpr double kUndershoot = -1e-6;    // kg/kg; below it water is a fault
+constexpr double kMaxWater = 0.5;        // kg/kg or kg/m3
+constexpr double kMaxShownValue = 1e30;  // as the values of a transfer function
+constexpr double kLeastFraction = 0.1;   // clouds in less are as dense as in this
+constexpr double kNoFraction = 0.01;     // below it the fraction knows nothing of the water
 constexpr double kLeastExtinction =
     1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
 constexpr double kLiquidRadius = 10e-6, kIceRadius = 30e-6;
@@ -112,7 +112,7 @@ private:
                                  ", allowed: at least -1e-6 kg/kg, which counts as 0");
             value = 0;
         }
-        if (value > kMostWater)
+        if (value > kMaxWater)
             return fault(role, c,
                          "level " + level_text(k) + ": out of range, " + number_text(value) +
                              (ratio ? " kg/kg" : " kg/m3") +
@@ -155,7 +155,7 @@ private:
                     return fault(Role::kShown, c,
                                  "level " + level_text(k) +
                                      ": missing value, allowed: none (missing = \"fault\")");
-            } else if (!(value >= -kMostShown && value <= kMostShown)) {
+            } else if (!(value >= -kMaxShownValue && value <= kMaxShownValue)) {
                 return fault(Role::kShown, c,
                              "level " + level_text(k) + ": out of range, " + number_text(value) +
                                  ", allowed: -1e30 to 1e30");
@@ -189,14 +189,14 @@ private:
                 ice /= share;
             }
             if (liquid > 0) {
-                PILEUS_TRY(
-                    radius(Role::kLiquidRadius, w.liquid_radius_um, kLiquidRadius, c, k, size));
+                PILEUS_TRY(radius(Role::kLiquidRadius, w.sizes.liquid_radius_um, kLiquidRadius, c,
+                                  k, size));
                 extinction += radius_extinction(liquid, kWaterDensity, size);
             }
-            if (ice > 0 && w.ice_dge_um > 0) {
-                extinction += dge_extinction(ice, w.ice_dge_um * 1e-6);
+            if (ice > 0 && w.sizes.ice_dge_um > 0) {
+                extinction += dge_extinction(ice, w.sizes.ice_dge_um * 1e-6);
             } else if (ice > 0) {
-                PILEUS_TRY(radius(Role::kIceRadius, w.ice_radius_um, kIceRadius, c, k, size));
+                PILEUS_TRY(radius(Role::kIceRadius, w.sizes.ice_radius_um, kIceRadius, c, k, size));
                 extinction += radius_extinction(ice, kIceDensity, size);
             }
             if (extinction < kLeastExtinction) liquid = ice = extinction = 0;

@@ -14,7 +14,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostMembers = 65536;
+constexpr std::uint64_t kMaxMembers = 65536;
 
 bool read_number(const std::string& text, double& value) {
     const char* end = text.data() + text.size();
@@ -24,7 +24,7 @@ bool read_number(const std::string& text, double& value) {
 
 /// Names of letters, one for each member.
 Status read_names(const NcFile& file, const NcVariable& v, std::vector<std::string>& names) {
-    PILEUS_TRY(read_letter_rows(file, v, kMostMembers, names));
+    PILEUS_TRY(read_letter_rows(file, v, kMaxMembers, names));
     for (std::string& name : names)
         name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
     return Status::ok();
@@ -38,7 +38,7 @@ Status member_names(const NcFile& file, std::size_t dimension, std::vector<std::
     const std::uint64_t size = head.dimensions[dimension].size;
     names.clear();
     unread = false;
-    if (size > kMostMembers) return Status::ok();
+    if (size > kMaxMembers) return Status::ok();
     const auto numbers = coordinates_of(head, dimension, AxisKind::kMember);
     if (!numbers.empty()) {
         std::vector<double> values(std::size_t(size), 0.0);

@@ -113,7 +113,7 @@ private:
             pressure.quantity = Quantity::kPressure;
             pressure.unit = unit;
         }
-        if (!height.there() && s_.settings->height != "none" &&
+        if (!height.there() && s_.settings->names.height != "none" &&
             find_unit(text, Quantity::kHeight, unit) && !is_level_number(file_, *v)) {
             height.parts = {v};
             height.quantity = Quantity::kHeight;
@@ -265,11 +265,11 @@ Status open_weather(const NcFile& file, const WeatherSettings& settings, Weather
     PILEUS_TRY(find_water(file, settings, source.water));
     PILEUS_TRY(find_axes(file, *source.water, settings, source.axes));
     // No column may have more levels than a grid can show, no row more columns.
-    constexpr std::uint64_t kMostHeights = 10'000, kMostSide = std::uint64_t{1} << 20;
-    constexpr std::uint64_t kMostRow = std::uint64_t{1} << 24;
+    constexpr std::uint64_t kMaxHeights = 10'000, kMaxSide = std::uint64_t{1} << 20;
+    constexpr std::uint64_t kMaxRow = std::uint64_t{1} << 24;
     const WeatherAxes& axes = source.axes;
-    if (axes.levels > kMostHeights || axes.nx > kMostSide || axes.ny > kMostSide ||
-        axes.nx * axes.levels > kMostRow)
+    if (axes.levels > kMaxHeights || axes.nx > kMaxSide || axes.ny > kMaxSide ||
+        axes.nx * axes.levels > kMaxRow)
         return Status::limit(file.name() + ": variable " + printable_line(source.water->name) +
                              ": too large, " + std::to_string(axes.nx) + " x " +
                              std::to_string(axes.ny) + " x " + std::to_string(axes.levels) +

@@ -13,7 +13,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostTimes = 100'000;
+constexpr std::uint64_t kMaxTimes = 100'000;
 
 /// "2005-08-28 12" and "2005-08-28_12" are "2005-08-28T12".
 std::string date_form(std::string text) {
@@ -154,7 +154,7 @@ bool parse_since(const std::string& units, bool mixed, double& step, double& sta
 
 /// Dates of letters, one for each time.
 Status read_date_rows(const NcFile& file, const NcVariable& v, std::vector<std::string>& dates) {
-    PILEUS_TRY(read_letter_rows(file, v, kMostTimes, dates));
+    PILEUS_TRY(read_letter_rows(file, v, kMaxTimes, dates));
     for (std::string& date : dates) {
         for (char& c : date)
             if (c == '_' || c == ' ') c = 'T';
@@ -189,7 +189,7 @@ Status weather_times(const NcFile& file, std::size_t dimension, std::vector<std:
     const std::uint64_t size = head.dimensions[dimension].size;
     dates.clear();
     why.clear();
-    if (size > kMostTimes) return Status::ok();
+    if (size > kMaxTimes) return Status::ok();
     if (const NcVariable* v = head.find("Times"))
         if (v->type == NcType::kChar && v->dimensions.size() == 2 &&
             v->dimensions[0] == dimension && head.size(*v, 1) <= 64)

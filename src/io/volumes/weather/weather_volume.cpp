@@ -8,7 +8,6 @@
 #include "src/io/volumes/volume.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_grid.h"
-#include "src/io/volumes/weather_file.h"
 
 namespace pileus {
 namespace {
@@ -104,7 +103,7 @@ Status fill(const WeatherSource& s, const WeatherGrid& grid, CloudLayers& layers
         fill_shown(sums.span(), known.span(), volume);
         return Status::ok();
     }
-    const double scale = s.settings->vertical_scale;
+    const double scale = s.settings->place.vertical_scale;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double kappa = sums[i] / scale;
         if (!(kappa <= 1e12))
@@ -125,13 +124,13 @@ Status weather_head(const MediumSettings& medium, const NcFile& file, VolumeHead
     WeatherGrid grid;
     head = VolumeHead();
     PILEUS_TRY(open_weather(file, medium.weather, source));
-    source.transfer = &medium.transfer;
+    source.transfer = &medium.optics.transfer;
     PILEUS_TRY(survey_weather(source, survey));
-    PILEUS_TRY(weather_grid(source, survey, medium.resolution, grid));
+    PILEUS_TRY(weather_grid(source, survey, medium.box.resolution, grid));
     head.size = grid.size;
     head.knows_bounds = true;
     head.in_extinction = !source.has(Role::kShown);
-    head.bounds_m = bounds_of(grid, medium.weather.vertical_scale);
+    head.bounds_m = bounds_of(grid, medium.weather.place.vertical_scale);
     head.in_pieces = true;
     head.unpacked_bytes = working_bytes(source, grid);
     head.kind = file.head().kind;
@@ -146,14 +145,14 @@ Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& 
     WeatherSurvey survey;
     WeatherGrid grid;
     PILEUS_TRY(open_weather(file, medium.weather, source));
-    source.transfer = &medium.transfer;
+    source.transfer = &medium.optics.transfer;
     CloudLayers layers;
     PILEUS_TRY(survey_weather(source, layers, survey));
-    PILEUS_TRY(weather_grid(source, survey, medium.resolution, grid));
+    PILEUS_TRY(weather_grid(source, survey, medium.box.resolution, grid));
     volume.size = grid.size;
     volume.knows_bounds = true;
     volume.in_extinction = !source.has(Role::kShown);
-    volume.bounds_m = bounds_of(grid, medium.weather.vertical_scale);
+    volume.bounds_m = bounds_of(grid, medium.weather.place.vertical_scale);
     volume.missing = survey.counts.missing;
     volume.clamped = survey.counts.clamped;
     volume.blank = survey.counts.blank;
@@ -162,17 +161,15 @@ Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& 
 }
 
 Status read_weather_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    NcFile own;
-    const NcFile* file = nullptr;
-    PILEUS_TRY(open_weather_file(medium, path, own, file));
-    return weather_volume(medium, *file, volume);
+    NcFile file;
+    PILEUS_TRY(file.open(path));
+    return weather_volume(medium, file, volume);
 }
 
 Status read_weather_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    NcFile own;
-    const NcFile* file = nullptr;
-    PILEUS_TRY(open_weather_file(medium, path, own, file));
-    return weather_head(medium, *file, head);
+    NcFile file;
+    PILEUS_TRY(file.open(path));
+    return weather_head(medium, file, head);
 }
 
 }  // namespace pileus

@@ -119,7 +119,7 @@ bool set_ellipse(const CameraParams& c, const SphereAt& at, BlendSphere& s) {
 /// How the kernel finds the share of light that a layer up to `depth` thick takes.
 std::int32_t doublings_of(double depth) {
     std::int32_t n = 0;
-    while (n <= kMostDoublings && depth > double(kThinLayer)) {
+    while (n <= kMaxDoublings && depth > double(kThinLayer)) {
         depth *= 0.5;
         ++n;
     }

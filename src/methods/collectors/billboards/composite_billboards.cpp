@@ -79,7 +79,7 @@ BlendParams make_params(const BillboardScene& s, const CameraParams& c, const Bi
 
     // Keep the planes of one tile near half a mebibyte, a share of any second-level cache.
     constexpr std::int32_t kTileFloats = 1 << 17;
-    p.tile_width = t.width < kMostTileWidth ? t.width : kMostTileWidth;
+    p.tile_width = t.width < kMaxTileWidth ? t.width : kMaxTileWidth;
     p.tile_width = p.tile_width < c.width ? p.tile_width : c.width;
     std::int32_t rows = kTileFloats / ((kBlendPlanes + s.channels) * p.tile_width);
     rows = rows < 1 ? 1 : rows > 32 ? 32 : rows;

@@ -22,7 +22,7 @@ constexpr unsigned kVertexShader = 0x8B31, kPixelShader = 0x8B30, kCompiled = 0x
                    kLinked = 0x8B82;
 constexpr unsigned kArrayBuffer = 0x8892, kStreamDraw = 0x88E0, kTriangleStrip = 0x0005;
 constexpr unsigned kBlend = 0x0BE2, kOneMinusTargetAlpha = 0x0305, kOne = 1, kColourBit = 0x4000;
-constexpr int kMostSide = 16384;
+constexpr int kMaxSide = 16384;
 constexpr int kVectors = 6, kFloats = 4 * kVectors;  // per sphere
 
 bool compile(const GlApi& gl, unsigned program, unsigned kind, const char* text) {
@@ -179,7 +179,7 @@ Status blend_by_gl(GlBlender& blender, const BillboardScene& scene, const Camera
     PILEUS_TRY(check_billboards(scene, camera));
     if (scene.half_depth)
         return Status::bad_input("collectors.compositor: knows no half depth, allowed: builtin");
-    if (camera.width > kMostSide || camera.height > kMostSide)
+    if (camera.width > kMaxSide || camera.height > kMaxSide)
         return Status::limit("OpenGL: more than 16384 pixels a side");
     if (threads < 1) threads = hardware_threads();
     BillboardLists lists;

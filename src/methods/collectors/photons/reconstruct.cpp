@@ -126,7 +126,7 @@ void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t li
         double power = 0;
         for (std::size_t ch = 0; ch < 3; ++ch) {
             if (ch == 0 || channels == 3) {
-                double sums[kMostNumbers];
+                double sums[kMaxNumbers];
                 slot_sums(in, slot, light, (begin + i) * channels + ch, norm, sums);
                 power = scattered_power(in, seen[i], ch, l.beam, sums);
                 if (by_axes)
@@ -212,7 +212,7 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
             if (slot.generations == 0) continue;
             const double share = double(slot.generations) / batch.generations;
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
-                double sums[kMostNumbers];
+                double sums[kMaxNumbers];
                 slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(channels) + ch, sums);
                 // Which sets this light feeds, and how brightly.
                 const auto& colour = in.lighting->lights[l].colour;
@@ -254,7 +254,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, Span<const s
         in.threads, std::int64_t((count + kPiece - 1) / kPiece), [&](std::int64_t piece, int) {
             const std::size_t begin = std::size_t(piece) * kPiece;
             const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
-            double own[3 * kMostNumbers];
+            double own[3 * kMaxNumbers];
             for (std::size_t i = begin; i < end; ++i) {
                 collector_harmonics(in, window, which.size > 0 ? which[i] : i, shown, out, own);
                 for (std::size_t k = 0; k < numbers; ++k) out.values[k * count + i] = float(own[k]);

@@ -8,12 +8,12 @@
 #include <cstring>
 
 #include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/base/powers.h"
 
 namespace pileus {
 namespace {
 
-constexpr double kPiExact = 3.14159265358979323846;
 constexpr std::size_t kChunk = 32;
 
 /// Adds up the samples of each leaf in the order of the samples.
@@ -36,12 +36,12 @@ void finish(Collector& c, const Grid& grid, const double centre[3], const double
         c.centre[a] = float(centre[a] * double(grid.cell_m[a]));
         volume *= edge[a] * double(grid.cell_m[a]);
     }
-    const double r = cube_root(volume * 3.0 / (4.0 * kPiExact));
+    const double r = cube_root(volume * 3.0 / (4.0 * kPi64));
     c.radius = float(r);
     c.billboard_radius = float(r * factor);
     // Divide by the volume of the rounded radius, so that rounding does not lose cross-section.
     const double R = double(c.billboard_radius);
-    c.extinction = float(c.mass / (4.0 / 3.0 * kPiExact * R * R * R));
+    c.extinction = float(c.mass / (4.0 / 3.0 * kPi64 * R * R * R));
 }
 
 void place_paper(Collector& c, const Leaf& leaf, const SampleCentroid& samples, const Grid& grid) {

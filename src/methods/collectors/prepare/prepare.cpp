@@ -48,9 +48,9 @@ Status prepare_sample_field(const Medium& medium, const CollectorSettings& setti
     const StageClock clock(context, "gradient");
     const Span<const float> density = medium.volume.density.span();
     PILEUS_TRY(allocate(arrays::gradient_field(medium.grid), field));
-    return settings.variance_field
-               ? local_variance(density, medium.grid, settings.variance_radius, context.threads,
-                                field.span(), stats)
+    return settings.placement.variance_field
+               ? local_variance(density, medium.grid, settings.placement.variance_radius,
+                                context.threads, field.span(), stats)
                : gradient_magnitude(density, medium.grid, context.threads, field.span(), stats);
 }
 
@@ -62,13 +62,14 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
     PILEUS_TRY(prepare_sample_field(medium, settings, context, field, stats));
     const StageClock clock(context, "samples");
     SampleOptions options;
-    options.count = std::uint32_t(settings.samples);
+    options.count = std::uint32_t(settings.placement.samples);
     options.seed = std::uint64_t(seed);
     options.stream = kSampleStream;
-    return settings.rejection_sampler ? sample_rejection(field.span(), stats, density, medium.grid,
-                                                         options, context.threads, set)
-                                      : sample_stratified(field.span(), stats, density, medium.grid,
-                                                          options, context.threads, set);
+    return settings.placement.rejection_sampler
+               ? sample_rejection(field.span(), stats, density, medium.grid, options,
+                                  context.threads, set)
+               : sample_stratified(field.span(), stats, density, medium.grid, options,
+                                   context.threads, set);
 }
 
 double leaf_share(const Medium& medium) {
@@ -83,8 +84,8 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     out.rejected = set.given_up;
     const double share = leaf_share(medium), detail = share / kLeafShare;
     TreeOptions tree;
-    tree.density_range = float(settings.density_range) * medium.density_max;
-    tree.influence_m = float(settings.influence_radius * detail * diagonal_m(medium));
+    tree.density_range = float(settings.placement.density_range) * medium.density_max;
+    tree.influence_m = float(settings.placement.influence_radius * detail * diagonal_m(medium));
     const double per_m = max_extinction(medium);
     if (!settings.paper) {
         leaf_limit(medium.grid, share, per_m, tree.max_leaf_voxels);
@@ -105,7 +106,7 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
         PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,
                               context.threads, out.leaves));
     }
-    return finish_leaves(medium, {settings.paper, float(settings.radius_factor)},
+    return finish_leaves(medium, {settings.paper, float(settings.display.radius_factor)},
                          set.samples.span(), context, out);
 }
 
