@@ -101,6 +101,9 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
     PILEUS_TRY(open_scene_clouds(scene, options, sky, clouds, report.clouds));
     report.method = methods_of(report.clouds);
     explain_crop(described, report.plan);
+    if (!scene.solids.empty())
+        report.plan.leave_out("shadows of solids on clouds",
+                              "a sky's clouds know one another alone");
     const SkyAnimation animation(scene);
     const int run = film_run(scene), first = frames.first;
     for (int frame = film_begin(scene, first); frame <= frames.last; ++frame) {

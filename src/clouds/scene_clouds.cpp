@@ -20,6 +20,10 @@ Status read_kind(const Scene& scene, std::size_t number, Scene& kind) {
         status = Status::bad_input(path +
                                    ": [clouds] of its own, allowed: a scene with "
                                    "[[medium]]");
+    if (status && scene.animation.present && scene.animation.frames > 1 && has_sequence(kind))
+        status = Status::bad_input(path +
+                                   ": a sequence of files in a film of clouds, which would show "
+                                   "the first, allowed: one file");
     return at_key(scene, key_of("kind", number, "scene"), status);
 }
 

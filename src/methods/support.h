@@ -49,14 +49,13 @@ enum class SupportLevel {
     kExact,    ///< but for noise and rounding
     kBounded,  ///< off by what `text` says
     kRefused,  ///< in one line, before any work
-    kIgnored,  ///< accepted without effect; `text` says where the plan or the docs tell it
-    kUnknown   ///< not measured
+    kIgnored   ///< accepted without effect; `text` says where the plan or the docs tell it
 };
 const char* level_name(SupportLevel level);
 
 /// What one column does with one feature.
 struct Support {
-    SupportLevel level = SupportLevel::kUnknown;
+    SupportLevel level = SupportLevel::kRefused;
     const char* text = "";     ///< the figure and what it was measured on; what a fault says
     const char* allowed = "";  ///< of a fault: what stands behind "allowed:"
 

@@ -181,6 +181,12 @@ TEST_CASE("many clouds: what they cannot be refuses with a line") {
     folder.files().put("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     refused(render + "--set 'clouds.kind.1.set=[\"solid.0.file=m.obj\"]'",
             "clouds.kind.1.scene: kind: a scene with [[solid]]");
+    folder.files().put("v0.raw", std::string(64, 'x'));
+    const std::string sequence =
+        "--set 'clouds.kind.0.set=[\"medium.0.density={file=\\\"v#.raw\\\",type=\\\"uint8\\\","
+        "size=[4,4,4]}\"]' ";
+    refused("render sky.toml -o a.#.pfm " + sequence + kFilm,
+            "clouds.kind.0.scene: s.toml: a sequence of files in a film of clouds");
     refused(render + "--set clouds.scatter.0.scale=[60,60]", "clouds.scatter.0.count: room for ");
     refused(render + "--set clouds.scatter.0.count=1000",
             "clouds.scatter: too many clouds in all, 1001");

@@ -212,3 +212,58 @@ TEST_CASE("ranks: the hash of one process, whatever their number") {
     }
     CHECK(folder.left() == before);
 }
+
+TEST_CASE("ranks: files that rank 0 alone reads") {
+    const ProgramFolder folder;
+    if (!holds(folder.run("info").output, "mpi            yes")) {
+        MESSAGE("left out: the program was built without MPI");
+        return;
+    }
+    std::string density(4 * 4 * 4, '\0');
+    for (std::size_t i = 0; i < density.size(); ++i) density[i] = char(i * 37 % 251);
+    folder.files().put("v.raw", density);
+    folder.files().put("places.toml", "[[sensor]]\nposition_m = [2, 2, 0]\n");
+    const std::string own = test::small_scene();
+    const std::size_t medium = own.find("density = ");
+    const std::string rest = own.substr(own.find('\n', medium));
+    const auto scene = [&](const std::string& name) {
+        return own.substr(0, medium) + "density = { file = \"" + name +
+               "\", type = \"uint8\", size = [4, 4, 4] }" + rest;
+    };
+    std::filesystem::create_directories(folder.files().path("deep/er"));
+    std::filesystem::create_directories(folder.files().path("copies"));
+    folder.files().put("deep/er/t.toml", scene("../../v.raw"));
+    const std::string render = "render deep/er/t.toml -q -o a.pfm --set method.name=raymarch ";
+    const std::string whole = hash_of(folder.run(render));
+    const std::vector<std::string> before = folder.left();
+    CHECK(hash_of(folder.run(render + "--stage copies", ranks(3))) == whole);
+    CHECK(hash_of(folder.run(render + "--stage copies --set method.name=collectors "
+                                      "--set collectors.photons=5000",
+                             ranks(2))) ==
+          hash_of(folder.run(render + "--set method.name=collectors "
+                                      "--set collectors.photons=5000")));
+    const std::string flux = "flux deep/er/t.toml --budget samples=16 ";
+    CHECK(folder.run(flux + "--stage copies", ranks(2)).output == folder.run(flux).output);
+    // Copies go with those who had them.
+    CHECK(folder.left() == before);
+
+    folder.files().put("deep/er/root.toml", scene(folder.files().path("v.raw")));
+    const struct {
+        std::string arguments, said;
+        int count;
+    } rows[] = {{"render deep/er/root.toml -q -o b.pfm --stage copies", "a name that starts at", 2},
+                {render + "--stage ''", "--stage: no name", 2},
+                {render + "--stage no/copies", "--stage: no/copies: cannot make a folder", 2},
+                {render + "--stage copies --state st", "--stage: of a film or with --state", 2},
+                {"render deep/er/none.toml -o b.pfm --stage copies", "none.toml: no such file", 2},
+                {render + "--stage copies", "--stage: one process, allowed: among ranks", 1}};
+    for (const auto& row : rows) {
+        CAPTURE(row.arguments);
+        const Outcome outcome = row.count == 1 ? folder.run(row.arguments)
+                                               : folder.run(row.arguments, ranks(2) + " -q");
+        CAPTURE(outcome.errors);
+        CHECK(outcome.exit_status == 2);
+        CHECK(line_count(outcome.errors) == 1);
+        CHECK(holds(outcome.errors, row.said));
+    }
+}

@@ -11,19 +11,23 @@ using render_test::kSmallCumulus;
 
 namespace {
 
-const char* const kMethods[] = {"collectors", "photon-grid",   "raymarch",
-                                "path",       "optical-depth", "particles"};
+const char* const kMethods[] = {
+    "collectors", "photon-grid",         "raymarch", "path", "optical-depth",
+    "particles",  "particles-billboards"};
 
 Overrides with(const std::string& method) {
-    return {"method.name=\"" + method + "\"", "path.samples_per_pixel=3",
-            "collectors.generations=6", "raymarch.steps=40",
-            "output.layers=[\"radiance\",\"alpha\"]"};
+    const bool balls = method == "particles-billboards";
+    Overrides all{"method.name=\"" + (balls ? "particles" : method) + "\"",
+                  "path.samples_per_pixel=3", "collectors.generations=6", "raymarch.steps=40",
+                  "output.layers=[\"radiance\",\"alpha\"]"};
+    if (balls) all.push_back("particles.display=billboards");
+    return all;
 }
 
 /// The small cumulus, or for method particles what it shows; and lights.
 std::string scene_for(const std::string& method, const std::string& lights) {
     const std::string text = kSmallCumulus;
-    if (method != "particles") return text + lights;
+    if (method.find("particles") != 0) return text + lights;
     const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");
     return text.substr(0, from) +
            "[[medium]]\ndensity = \"assets/scenes/golden/data/puff.csv\"\n"
@@ -108,7 +112,8 @@ TEST_CASE("lights of a host: the picture of a scene that has them") {
 
 TEST_CASE("lights of a host: moved back and taken away") {
     // Photons keep their shares and their ring.
-    for (const char* method : {"raymarch", "path", "optical-depth", "particles"}) {
+    for (const char* method :
+         {"raymarch", "path", "optical-depth", "particles", "particles-billboards"}) {
         CAPTURE(std::string(method));
         Hosted host(scene_for(method, kText), with(method));
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());

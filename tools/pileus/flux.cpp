@@ -18,6 +18,7 @@
 #include "tools/pileus/output_set.h"
 #include "tools/pileus/part_files.h"
 #include "tools/pileus/progress.h"
+#include "tools/pileus/rank_files.h"
 #include "tools/pileus/rank_render.h"
 #include "tools/pileus/ranks.h"
 #include "tools/pileus/scene_options.h"
@@ -30,7 +31,7 @@ namespace {
 struct FluxArguments {
     SceneArguments scene;
     std::vector<std::string> columns, cells, below;
-    std::optional<std::string> method, file, absorbed, density, heat_capacity, sensors, part;
+    std::optional<std::string> method, file, absorbed, density, heat_capacity, sensors, part, stage;
     std::vector<std::string> merged;
     bool json = false, quiet = false;
 };
@@ -214,6 +215,8 @@ Status run_flux(FluxArguments& arguments) {
     RenderOptions options;
     FluxSettings settings;
     AirHeating heating;
+    StagedFiles staged;
+    PILEUS_TRY(staged.stage(arguments.stage, arguments.scene, &arguments.sensors));
     PILEUS_TRY(read_settings(arguments, settings, heating));
     // A detector needs no view; scenes do, above the ground.
     for (const char* key :
@@ -295,6 +298,7 @@ void add_flux(CLI::App& app, Chosen& chosen) {
         ->add_option("--merge", arguments->merged,
                      "What all parts have measured, with the same options")
         ->type_name("FILE.part");
+    add_stage_option(*command, arguments->stage);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress");
     command->callback(

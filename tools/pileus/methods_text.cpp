@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kNameWidth = 52;
 
 const char* sign_of(const Support& entry) {
-    constexpr const char* kSigns[] = {"=", "~", "-", ".", "?"};
+    constexpr const char* kSigns[] = {"=", "~", "-", "."};
     return kSigns[std::size_t(entry.level)];
 }
 
@@ -127,7 +127,7 @@ std::string support_lines() {
             fmt::format("{}{} {}", c == 0 ? "" : "  ", c + 1, method_column_name(MethodColumn(c)));
         numbers += fmt::format("  {}", c + 1);
     }
-    text += "\n=: exact  ~: bounded  -: refused  .: without effect, told  ?: not measured\n";
+    text += "\n=: exact  ~: bounded  -: refused  .: without effect, told\n";
     for_rows(
         [&](const char* group) { text += fmt::format("\n{:<{}}{}\n", group, kNameWidth, numbers); },
         [&](const FeatureRow& row) {

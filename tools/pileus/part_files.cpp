@@ -12,6 +12,7 @@
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/picture_scene.h"
+#include "tools/pileus/rank_files.h"
 #include "tools/pileus/render_outputs.h"
 
 namespace pileus {
@@ -27,6 +28,7 @@ void add_part_options(CLI::App& command, PartArguments& arguments) {
                     "Render band by band into a tiled .exr, whose tiles have so many pixels along "
                     "a side: a picture of any size in the memory of one band")
         ->type_name("SIDE");
+    add_stage_option(command, arguments.stage);
 }
 
 int divided_run(const Scene& scene) {

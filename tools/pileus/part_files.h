@@ -13,13 +13,13 @@ namespace pileus {
 
 /// As typed.
 struct PartArguments {
-    std::optional<std::string> part, tiles;
+    std::optional<std::string> part, tiles, stage;
     int tile_side = 0;  ///< of --tiles; 0: without
 
     bool given() const { return part || tiles; }
 };
 
-/// Adds --part and --tiles to a subcommand.
+/// Adds --part, --tiles and --stage to a subcommand.
 void add_part_options(CLI::App& command, PartArguments& arguments);
 
 /// Frames that one process best renders of a film, which is divided by whole frames; 0: a picture,

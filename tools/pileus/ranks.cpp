@@ -141,6 +141,14 @@ Status sum_to_first(Span<std::int64_t> values) {
     return Status::ok();
 }
 
+void send_from_first(Span<char> bytes) {
+    if (ranks().count == 1) return;
+    meet();
+    in_pieces(bytes.size, [&](std::uint64_t at, int count) {
+        MPI_Bcast(bytes.data + at, count, MPI_CHAR, 0, MPI_COMM_WORLD);
+    });
+}
+
 Status gather_to_first(Span<const char> own, std::vector<Buffer<char>>& all) {
     const Ranks& r = ranks();
     std::uint64_t size = own.size;
@@ -189,6 +197,7 @@ int end_ranks(int status) { return status; }
 
 Status agree(const Status& own) { return own; }
 Status sum_to_first(Span<std::int64_t>) { return Status::ok(); }
+void send_from_first(Span<char>) {}
 
 Status gather_to_first(Span<const char> own, std::vector<Buffer<char>>& all) {
     all.clear();

@@ -38,6 +38,8 @@ Status agree(const Status& own);
 
 /// Sums over all ranks, at rank 0; elsewhere `values` stay.
 Status sum_to_first(Span<std::int64_t> values);
+/// What rank 0 has, at all ranks: `bytes` of the same size everywhere.
+void send_from_first(Span<char> bytes);
 /// What each rank has, in their order, at rank 0; elsewhere nothing. kLimit: out of memory.
 Status gather_to_first(Span<const char> own, std::vector<Buffer<char>>& all);
 /// The work of a measurement shared among the ranks; null: there is one rank.

@@ -23,6 +23,7 @@
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/part_files.h"
 #include "tools/pileus/progress.h"
+#include "tools/pileus/rank_files.h"
 #include "tools/pileus/rank_render.h"
 #include "tools/pileus/ranks.h"
 #include "tools/pileus/render_outputs.h"
@@ -289,18 +290,20 @@ Status run_render(RenderArguments& arguments) {
     take_scene(arguments);
     PILEUS_TRY(take_picture(arguments.scene));
     expect_picture(arguments, outputs);
+    StagedFiles staged;
+    PILEUS_TRY(staged.stage(arguments.parts.stage, arguments.scene));
     Status read = read_arguments(arguments, scene, options, outputs);
     if (read && ranks().count > 1 && (arguments.parts.given() || arguments.blocks.file))
         read = Status::bad_input(
             "--part, --tiles, --blocks: among ranks of MPI, allowed: one process");
+    if (read && arguments.parts.stage && (outputs.numbered || arguments.state))
+        read = Status::bad_input("--stage: of a film or with --state, allowed: one picture");
     if (read) read = share_ranks(bool(arguments.scene.threads), divided_run(scene), options);
     PILEUS_TRY(agree(read));
 
     const bool first = ranks().is_first();
     Progress progress(first && !arguments.quiet && stderr_is_terminal());
-    options.progress = [&progress](const char* stage, double share) {
-        progress.tell(stage, share);
-    };
+    options.progress = [&](const char* stage, double share) { progress.tell(stage, share); };
     catch_interrupts(first ? "interrupted before there was anything to keep; no file written" : "",
                      int(Code::kCheckFailed));
     options.interrupted = interrupt_asked;

@@ -113,7 +113,7 @@ constexpr FeatureRow kWorkRows[] = {
         exact(), exact(), exact(), exact(), exact(), kBinBudgets, kNoBudgets, kCloudBudgets),
     row(Feature::kSetLights, FeatureGroup::kOfWork, "set_lights", "", "of a session", exact(),
         refused("not for collectors as billboards in this version"), exact(), exact(), exact(),
-        exact(), exact(), unknown(), kNoSetWork),
+        exact(), exact(), exact(), kNoSetWork),
 };
 
 }  // namespace support_rows
