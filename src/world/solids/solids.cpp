@@ -152,6 +152,12 @@ void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan) {
     if (depth.present) plan.need("the camera's depth image");
 }
 
+void note_surface_light(const Solids& solids, Plan& plan) {
+    if (solids.meshes)
+        plan.leave_out("the sky that media hide from solids, and light that they send there",
+                       "not by this method");
+}
+
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
                     const CameraDepth& depth, MemoryTable& table) {
     // A face takes at least two bytes of a file; the tree has less than two nodes a triangle.

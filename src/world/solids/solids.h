@@ -64,6 +64,8 @@ Status repeat_solids(const Scene& scene, const double (&extent_m)[3], Solids& so
 
 /// What the plan says of them; their bytes, bounds where they are not there yet.
 void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan);
+/// What methods but `path` leave out of the light on meshes.
+void note_surface_light(const Solids& solids, Plan& plan);
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
                     const CameraDepth& depth, MemoryTable& table);
 void report_solids(const Solids& solids, const CameraDepth& depth, Report& report);

@@ -172,10 +172,11 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
             collector_colours(in, begin, own, batches[set], seen, rows);
             for (std::size_t i = 0; i < own; ++i)
                 for (std::size_t ch = 0; ch < 3; ++ch) {
-                    // The constant part belongs to the radiance that must not be negative.
+                    // The constant part belongs to the radiance that must not be negative. Marched
+                    // collectors may be: what noise takes from one it has given to others.
                     const double constant = in.lighting->constant[ch];
                     double v = rows[i].rgb[ch] + constant;
-                    if (set == 0 && v < 0) {
+                    if (set == 0 && v < 0 && in.constant) {
                         v = 0;
                         ++negative[std::size_t(piece)];
                     }
