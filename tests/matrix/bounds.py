@@ -21,7 +21,7 @@ KNOWN = [
     ("collectors-billboards", {"inside"}, "boards that the camera is in"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
      for column in ("collectors", "photon-grid", "raymarch", "optical-depth")
-] + [(column, {"thick"}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")]
+] + [(column, {"thick", "no-resolution"}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")]
 
 
 def explained(column, names):

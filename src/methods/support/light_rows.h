@@ -85,7 +85,8 @@ constexpr FeatureRow kLightRows[] = {
         refused("not by collectors as billboards in this version",
                 "collectors.display = \"march\", or another method"),
         bounded("as collectors"), exact("0.03 %"),
-        bounded("-5 to +1 %; octaves: unscattered, -30 to -67 % at albedo 0.6 to 0.9"),
+        bounded("-5 to +1 %; thick media that absorb next to nothing lose a half and more, with a "
+                "warning; octaves: unscattered, -30 to -67 % at albedo 0.6 to 0.9"),
         bounded("unscattered: -30 to -67 % at albedo 0.6 to 0.9"), bounded("as the sun"),
         bounded("as the sun"), bounded("as its kinds")),
 };
