@@ -28,6 +28,9 @@ public:
     virtual Status gather(Span<double> values, std::uint64_t width) = 0;
     /// What the first share says counts: times are its own.
     virtual Status decide(std::uint64_t& value) = 0;
+    /// Before the first of these calls: whether all shares are ready. One that is not would let the
+    /// others wait for ever.
+    virtual bool all_ready(bool own) { return own; }
 };
 
 struct PartRange {

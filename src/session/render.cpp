@@ -9,6 +9,7 @@
 #include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
 #include "src/plan/crop.h"
+#include "src/run/work_share.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/session/deliver.h"
@@ -67,14 +68,16 @@ Status render_frames(const Scene& scene, const Shown& shown, const RunStart& sta
     const int first = frames.first;
     const FrameState opened = opened_at(scene, first);
     Session session;
-    PILEUS_TRY(session.open_film(scene, opened, options, true, world));
+    Status ready = session.open_film(scene, opened, options, true, world);
     Report& report = session.report();
-    explain_crop(scene, report.plan);
+    if (ready) explain_crop(scene, report.plan);
     Verifier verifier;
     const bool verifies = options.verify > 0 && options.show.empty();
-    if (verifies)
-        PILEUS_TRY(verifier.open(scene, opened, std::uint64_t(options.verify), session.context(),
-                                 session.scenery().world));
+    if (ready && verifies)
+        ready = verifier.open(scene, opened, std::uint64_t(options.verify), session.context(),
+                              session.scenery().world);
+    if (options.sharing != nullptr && !options.sharing->all_ready(bool(ready))) return ready;
+    PILEUS_TRY(ready);
     const int run = film_run(scene), begin = film_begin(scene, first);
     for (int frame = begin; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;

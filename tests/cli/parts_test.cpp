@@ -244,14 +244,40 @@ TEST_CASE("ranks: files that rank 0 alone reads") {
                                       "--set collectors.photons=5000")));
     const std::string flux = "flux deep/er/t.toml --budget samples=16 ";
     CHECK(folder.run(flux + "--stage copies", ranks(2)).output == folder.run(flux).output);
+    // Names that step back, a folder with its slash, the folder one stands in.
+    folder.files().put("deep/er/back.toml", scene("../er/../../v.raw"));
+    for (const char* where : {"copies/", "."})
+        CHECK(hash_of(folder.run("render deep/er/back.toml -q -o a.pfm "
+                                 "--set method.name=raymarch --stage " +
+                                     std::string(where),
+                                 ranks(2))) == whole);
+    std::filesystem::remove(folder.files().path("deep/er/back.toml"));
     // Copies go with those who had them.
     CHECK(folder.left() == before);
+    // One rank alone that cannot read its file ends both.
+    folder.files().put("short.raw", "x");
+    folder.files().put("deep/er/short.toml", scene("../../short.raw"));
+    const std::string first = ranks(1) + " -q " + std::getenv("PILEUS_PROGRAM");
+    for (const char* run : {"flux deep/er/%.toml --budget samples=4",
+                            "render deep/er/%.toml -o b.pfm --set method.name=path "
+                            "--budget error=0.5"}) {
+        CAPTURE(run);
+        const auto with = [&](const char* name) {
+            std::string text = run;
+            return text.replace(text.find('%'), 1, name);
+        };
+        const Outcome outcome = folder.run(with("short"), first + " " + with("t") + " : -n 1 ");
+        CAPTURE(outcome.errors);
+        CHECK(outcome.exit_status == 2);
+        CHECK(line_count(outcome.errors) == 1);
+        CHECK(holds(outcome.errors, "short.raw"));
+    }
 
     folder.files().put("deep/er/root.toml", scene(folder.files().path("v.raw")));
     const struct {
         std::string arguments, said;
         int count;
-    } rows[] = {{"render deep/er/root.toml -q -o b.pfm --stage copies", "a name that starts at", 2},
+    } rows[] = {{"render deep/er/root.toml -q -o b.pfm --stage copies", "a name that leads out", 2},
                 {render + "--stage ''", "--stage: no name", 2},
                 {render + "--stage no/copies", "--stage: no/copies: cannot make a folder", 2},
                 {render + "--stage copies --state st", "--stage: of a film or with --state", 2},

@@ -217,14 +217,14 @@ Status run_flux(FluxArguments& arguments) {
     AirHeating heating;
     StagedFiles staged;
     PILEUS_TRY(staged.stage(arguments.stage, arguments.scene, &arguments.sensors));
-    PILEUS_TRY(read_settings(arguments, settings, heating));
+    PILEUS_TRY(agree(read_settings(arguments, settings, heating)));
     // A detector needs no view; scenes do, above the ground.
     for (const char* key :
          {"camera.position_m=[0,-1,1e6]", "camera.target_m=[0,0,1e6]", "camera.up=[0,0,1]"})
         arguments.scene.sets.insert(arguments.scene.sets.begin(), key);
-    PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
+    PILEUS_TRY(agree(read_scene_options(arguments.scene, scene, options)));
     PILEUS_TRY(agree(check_files(arguments, scene)));
-    if (arguments.part) return write_flux_part(arguments, scene, options, settings);
+    if (arguments.part) return agree(write_flux_part(arguments, scene, options, settings));
     std::vector<Part> parts;
     if (!arguments.merged.empty()) PILEUS_TRY(read_flux_parts(arguments, scene, options, parts));
     ToldShare told(parts);

@@ -18,9 +18,13 @@ namespace {
 
 constexpr std::uint64_t kPiece = std::uint64_t{1} << 24;
 
+/// From the root on, step by step as it was written: a step back from a link leads elsewhere.
 std::string whole_path(const std::string& path) {
     std::error_code error;
-    return fs::absolute(path, error).lexically_normal().generic_string();
+    return fs::absolute(path, error).generic_string();
+}
+std::string normal_path(const std::string& path) {
+    return fs::path(whole_path(path)).lexically_normal().generic_string();
 }
 
 void send_number(std::uint64_t& value) {
@@ -31,7 +35,7 @@ void send_text(std::string& text) {
     std::uint64_t size = text.size();
     send_number(size);
     text.resize(std::size_t(size));
-    send_from_first({text.data(), size});
+    send_from_first({text.data(), text.size()});
 }
 
 /// Whatever happens here, all of the file's bytes are sent: the others wait for them.
@@ -44,12 +48,27 @@ Status send_file(std::string path, Buffer<char>& piece) {
     send_number(size);
     Status status;
     for (std::uint64_t at = 0; at < size; at += kPiece) {
-        const std::uint64_t count = std::min(kPiece, size - at);
-        const FileResult result = file.read(piece.data(), std::size_t(count));
+        const auto count = std::size_t(std::min(kPiece, size - at));
+        const FileResult result = file.read(piece.data(), count);
         if (!result) status = read_fault(path, result);
         send_from_first({piece.data(), count});
     }
     return status;
+}
+
+/// Two names that are one place among the copies have to be one file here.
+Status check_places(const std::vector<std::string>& files) {
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            if (normal_path(files[i]) != normal_path(files[j])) continue;
+            FileIdentity a, b;
+            if (identify_file(files[i].c_str(), a) && identify_file(files[j].c_str(), b) && a == b)
+                continue;
+            return Status::bad_input("--stage: " + printable_line(files[i]) +
+                                     ": is another file than " + printable_line(files[j]) +
+                                     ", allowed: names without steps back from links");
+        }
+    return Status::ok();
 }
 
 /// The scene's file and all that it names, each once.
@@ -63,7 +82,8 @@ Status send_files(const SceneArguments& arguments, const std::string& beside, Bu
     for (std::string& file : files) file = whole_path(file);
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
-    Status status;
+    Status status = check_places(files);
+    if (!status) return status;
     for (const std::string& file : files) {
         const Status sent = send_file(file, piece);
         if (status) status = sent;
@@ -89,8 +109,8 @@ StagedFiles::~StagedFiles() {
 Status StagedFiles::make_folder(const std::string& folder) {
     std::error_code error;
     for (int i = 0; i < 10000; ++i) {
-        const std::string name = whole_path(folder) + "/pileus-rank-" +
-                                 std::to_string(ranks().rank) + "-" + std::to_string(i);
+        const std::string name = normal_path(
+            folder + "/pileus-rank-" + std::to_string(ranks().rank) + "-" + std::to_string(i));
         // Another run may have its copies here.
         if (!fs::create_directory(name, error)) {
             if (error) break;
@@ -106,6 +126,16 @@ Status StagedFiles::make_folder(const std::string& folder) {
 
 std::string StagedFiles::copy_of(const std::string& path) const { return own_ + path; }
 
+/// Folders that a name goes through and comes back from have to be there.
+void StagedFiles::make_steps(const std::string& path) const {
+    std::error_code error;
+    fs::path way;
+    for (const fs::path& step : fs::path(path).parent_path()) {
+        way /= step;
+        if (step != "..") fs::create_directory(way, error);
+    }
+}
+
 Status StagedFiles::take_file(const std::string& path, std::uint64_t size) {
     const std::string copy = copy_of(path);
     NewFile file;
@@ -114,11 +144,12 @@ Status StagedFiles::take_file(const std::string& path, std::uint64_t size) {
     const auto note = [&](FileResult result) {
         if (!result && status) status = write_fault(copy, result);
     };
+    make_steps(copy);
     note(file.begin(copy.c_str()));
     for (std::uint64_t at = 0; at < size; at += kPiece) {
-        const std::uint64_t count = std::min(kPiece, size - at);
+        const auto count = std::size_t(std::min(kPiece, size - at));
         send_from_first({piece_.data(), count});
-        if (status) note(file.write_at(at, piece_.data(), std::size_t(count)));
+        if (status) note(file.write_at(at, piece_.data(), count));
     }
     if (status) note(file.flush());
     if (status) note(file.publish());
@@ -145,10 +176,11 @@ Status StagedFiles::check_names(const SceneArguments& arguments) const {
     // What is wrong with the scene rank 0 says.
     if (!read_scene_options(arguments, scene, options)) return Status::ok();
     for (const std::string& file : scene_files(scene))
-        if (whole_path(file).compare(0, own_.size() + 1, own_ + "/") != 0)
-            return Status::bad_input("--stage: " + printable_line(file) +
-                                     ": a name that starts at the root, allowed: names that start "
-                                     "at the scene's folder");
+        if (normal_path(file).compare(0, own_.size() + 1, own_ + "/") != 0)
+            return Status::bad_input(
+                "--stage: " + printable_line(file) +
+                ": a name that leads out of the copies, allowed: names that start "
+                "at the scene's folder");
     return Status::ok();
 }
 
@@ -157,12 +189,16 @@ Status StagedFiles::stage(const std::optional<std::string>& folder, SceneArgumen
     if (!folder) return Status::ok();
     if (ranks().count == 1)
         return Status::bad_input("--stage: one process, allowed: among ranks of MPI");
-    if (arguments.picture)
-        return Status::bad_input("--stage: a picture in place of a scene, allowed: a scene's file");
     const bool first = ranks().is_first();
-    PILEUS_TRY(agree(folder->empty() ? Status::bad_input("--stage: no name, allowed: a folder")
-                     : first         ? Status::ok()
-                                     : make_folder(*folder)));
+    Status ready;
+    if (arguments.picture)
+        ready =
+            Status::bad_input("--stage: a picture in place of a scene, allowed: a scene's file");
+    else if (folder->empty())
+        ready = Status::bad_input("--stage: no name, allowed: a folder");
+    else if (!first)
+        ready = make_folder(*folder);
+    PILEUS_TRY(agree(ready));
     PILEUS_TRY(agree(piece_.resize(kPiece, "files for ranks")));
     const std::string other = beside != nullptr ? beside->value_or("") : "";
     std::string scene = first ? whole_path(arguments.scene) : "";

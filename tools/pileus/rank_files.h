@@ -28,6 +28,7 @@ public:
 private:
     Status make_folder(const std::string& folder);
     std::string copy_of(const std::string& path) const;
+    void make_steps(const std::string& path) const;
     Status take_file(const std::string& path, std::uint64_t size);
     Status take_files();
     Status check_names(const SceneArguments& arguments) const;

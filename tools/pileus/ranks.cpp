@@ -87,6 +87,12 @@ public:
             });
         return Status::ok();
     }
+    bool all_ready(bool own) override {
+        meet();
+        int ready = own ? 1 : 0;
+        MPI_Allreduce(MPI_IN_PLACE, &ready, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+        return ready != 0;
+    }
     Status decide(std::uint64_t& value) override {
         meet();
         MPI_Bcast(&value, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);

@@ -288,7 +288,7 @@ Status run_render(RenderArguments& arguments) {
     RenderOptions options;
     Outputs outputs;
     take_scene(arguments);
-    PILEUS_TRY(take_picture(arguments.scene));
+    PILEUS_TRY(agree(take_picture(arguments.scene)));
     expect_picture(arguments, outputs);
     StagedFiles staged;
     PILEUS_TRY(staged.stage(arguments.parts.stage, arguments.scene));

@@ -16,6 +16,24 @@ namespace {
 
 constexpr std::uint64_t kMaxText = std::uint64_t{1} << 28;
 
+/// "a%20b" is "a b". RFC 3986, 2.1
+std::string decode_percent(const std::string& text) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : -1;
+    };
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool two = text[i] == '%' && i + 2 < text.size();
+        const int high = two ? digit(text[i + 1]) : -1, low = two ? digit(text[i + 2]) : -1;
+        out += high >= 0 && low >= 0 ? char(high * 16 + low) : text[i];
+        if (high >= 0 && low >= 0) i += 2;
+    }
+    return out;
+}
+
 /// Files beside a .gltf; none where it cannot be read, which its reader will say.
 void add_buffers(const std::string& path, std::vector<std::string>& files) {
     Buffer<char> text;
@@ -33,7 +51,8 @@ void add_buffers(const std::string& path, std::vector<std::string>& files) {
     for (const PlainJson& buffer : json["buffers"]) {
         if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
         const std::string uri = buffer["uri"].get<std::string>();
-        if (uri.compare(0, 5, "data:") != 0) files.push_back(scene_path(folder, uri));
+        if (uri.compare(0, 5, "data:") != 0)
+            files.push_back(scene_path(folder, decode_percent(uri)));
     }
 }
 

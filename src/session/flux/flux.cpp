@@ -7,6 +7,7 @@
 
 #include "src/base/angles.h"
 #include "src/io/volumes/weather_file.h"
+#include "src/run/work_share.h"
 #include "src/session/flux/flux_run.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -224,12 +225,17 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     MadeMethod made;
     PathMethod& path = make_path({own, budget}, made);
     // The first plan weighs the largest film: a pixel a column.
-    PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
-    if (settings.from_below) PILEUS_TRY(make_sky_below(settings, scenery.environment.sky_map));
-    scenery.light(0);
-    set_one_sun(scenery.lighting);
-    PILEUS_TRY(path.set_view(context, scenery.view(0), {}));
-    PILEUS_TRY(check_flux(own, context, scenery, settings.from_below));
+    const auto open = [&]() -> Status {
+        PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
+        if (settings.from_below) PILEUS_TRY(make_sky_below(settings, scenery.environment.sky_map));
+        scenery.light(0);
+        set_one_sun(scenery.lighting);
+        PILEUS_TRY(path.set_view(context, scenery.view(0), {}));
+        return check_flux(own, context, scenery, settings.from_below);
+    };
+    const Status opened = open();
+    if (options.sharing != nullptr && !options.sharing->all_ready(bool(opened))) return opened;
+    PILEUS_TRY(opened);
     if (!photons && scenery.lighting.sunlit) PILEUS_TRY(check_needles(own, scenery.world->medium));
     out = FluxResult{};
     FluxTask task{own, settings, context, scenery, path};

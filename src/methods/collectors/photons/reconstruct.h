@@ -34,8 +34,8 @@ inline Array<float> collector_colours(std::uint64_t numbers, std::uint64_t colle
 
 }  // namespace arrays
 
-/// Every colour is finite and >= 0; negative ones are clamped and counted (batches are not
-/// clamped: their spread is what matters). kLimit: out of memory.
+/// Every colour is finite. With `constant` it is >= 0: negative ones are clamped and counted;
+/// without, and in batches, whose spread is what matters, signs stay. kLimit: out of memory.
 Status reconstruct(const ReconstructInput& in, CollectorColours& out);
 
 /// Scattered light of collectors in all directions: set s holds bands*bands harmonics of what
