@@ -4,6 +4,7 @@
 
 #include "src/clouds/scatter.h"
 #include "src/scene/read_scene.h"
+#include "src/session/render.h"
 
 namespace pileus {
 namespace {
@@ -20,7 +21,7 @@ Status read_kind(const Scene& scene, std::size_t number, Scene& kind) {
         status = Status::bad_input(path +
                                    ": [clouds] of its own, allowed: a scene with "
                                    "[[medium]]");
-    if (status && scene.animation.present && scene.animation.frames > 1 && has_sequence(kind))
+    if (status && film_run(scene) > 0 && has_sequence(kind))
         status = Status::bad_input(path +
                                    ": a sequence of files in a film of clouds, which would show "
                                    "the first, allowed: one file");

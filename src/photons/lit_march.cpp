@@ -330,4 +330,11 @@ Status fill_lit_background(const Context& context, const FrameView& view, Photon
     return show_background(context, light, k, b);
 }
 
+void cut_below_zero(const Context& context, Planes& planes) {
+    const StageClock clock(context, "layers");
+    const std::size_t pixels = planes.transmittance.size();
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
+}
+
 }  // namespace pileus

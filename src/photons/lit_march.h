@@ -127,6 +127,9 @@ Status fill_lit_background(const Context& context, const FrameView& view, Photon
 Status add_ground_noise(const Context& context, const FrameView& view, PhotonState& state,
                         const LightInput& lit, Planes& planes);
 
+/// Scattered light of a pixel that noise has left below 0 becomes 0, and is counted.
+void cut_below_zero(const Context& context, Planes& planes);
+
 /// Data of whole rays, where layers show them: optical depth, and transmittance to the end where
 /// the picture's own ends before.
 Status show_whole_rays(const Context& context, const FrameView& view, const PhotonState& state,

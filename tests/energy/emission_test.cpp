@@ -161,3 +161,21 @@ TEST_CASE("emission: the last flight of a path finds it under a black sky") {
         for (int x = 0; x < 8; ++x) CHECK(std::fabs(a.at("G", x, y) - b.at("G", x, y)) <= 1e-30f);
     CHECK(sum_of(a, "G").value > 0);
 }
+
+TEST_CASE("emission: what keeps its own light on thick nodes is warned of, and nothing else") {
+    const std::string text = std::string(kFront) + kSlab;
+    const auto warnings = [&](const char* extinction, const char* albedo, const char* emission) {
+        return by("raymarch", text,
+                  {"output.layers = [\"radiance\"]", "medium.0.resolution = [48, 48, 48]",
+                   std::string("medium.0.extinction_per_m = ") + extinction,
+                   std::string("medium.0.albedo = ") + albedo,
+                   std::string("medium.0.emission = ") + emission})
+            .report.warnings;
+    };
+    const std::vector<std::string> told = warnings("1", "1", "0.01");
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].find("it may be darker by a half") != std::string::npos);
+    CHECK(warnings("1", "[0.5, 0.9, 0]", "0.01").empty());
+    CHECK(warnings("1", "1", "0").empty());
+    CHECK(warnings("0.1", "1", "0.01").empty());
+}

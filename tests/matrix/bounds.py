@@ -17,7 +17,6 @@ FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
 # Scenes that are beyond their bounds, and why: docs/accuracy.md, "What the short form finds".
 KNOWN = [
     ("collectors", {"periodic", "no-resolution", "thick"}, "a deck of 100 optical depths seen along its top"),
-    ("photon-grid", {"hg-0.97"}, "skylight just below the horizon through a thin medium"),
     ("collectors-billboards", {"inside"}, "boards that the camera is in"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
      for column in ("collectors", "photon-grid", "raymarch", "optical-depth")

@@ -56,18 +56,24 @@ Status send_file(std::string path, Buffer<char>& piece) {
     return status;
 }
 
-/// Two names that are one place among the copies have to be one file here.
-Status check_places(const std::vector<std::string>& files) {
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) {
-            if (normal_path(files[i]) != normal_path(files[j])) continue;
-            FileIdentity a, b;
-            if (identify_file(files[i].c_str(), a) && identify_file(files[j].c_str(), b) && a == b)
-                continue;
-            return Status::bad_input("--stage: " + printable_line(files[i]) +
-                                     ": is another file than " + printable_line(files[j]) +
-                                     ", allowed: names without steps back from links");
-        }
+/// What is sent: each name once, in order of the places that copies have. Two names that are one
+/// place there have to be one file here.
+Status list_files(std::vector<std::string>& files) {
+    std::vector<std::pair<std::string, std::string>> places;
+    for (const std::string& file : files) places.emplace_back(normal_path(file), whole_path(file));
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    files.clear();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        files.push_back(places[i].second);
+        if (i == 0 || places[i].first != places[i - 1].first) continue;
+        const std::string &one = places[i].second, &other = places[i - 1].second;
+        FileIdentity a, b;
+        if (identify_file(one.c_str(), a) && identify_file(other.c_str(), b) && a == b) continue;
+        return Status::bad_input("--stage: " + printable_line(one) + ": is another file than " +
+                                 printable_line(other) +
+                                 ", allowed: names without steps back from links");
+    }
     return Status::ok();
 }
 
@@ -79,11 +85,8 @@ Status send_files(const SceneArguments& arguments, const std::string& beside, Bu
     std::vector<std::string> files = scene_files(scene);
     files.push_back(arguments.scene);
     if (!beside.empty()) files.push_back(beside);
-    for (std::string& file : files) file = whole_path(file);
-    std::sort(files.begin(), files.end());
-    files.erase(std::unique(files.begin(), files.end()), files.end());
-    Status status = check_places(files);
-    if (!status) return status;
+    PILEUS_TRY(list_files(files));
+    Status status;
     for (const std::string& file : files) {
         const Status sent = send_file(file, piece);
         if (status) status = sent;

@@ -21,7 +21,8 @@ public:
     /// All ranks call it, before they read the scene. Rank 0 reads its files and sends them; every
     /// other one keeps them below `folder`, and its scene becomes the copy. Without `folder`: each
     /// reads the scene where it is. kBadInput: one rank, a picture in place of a scene, names that
-    /// start at the root; kIo: a copy that cannot be written. `beside`: another file, likewise.
+    /// lead out of the copies; kIo: a copy that cannot be written. `beside`: another file,
+    /// likewise.
     Status stage(const std::optional<std::string>& folder, SceneArguments& arguments,
                  std::optional<std::string>* beside = nullptr);
 

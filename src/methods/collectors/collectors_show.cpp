@@ -53,13 +53,7 @@ Status compose_collectors(const CameraParams& camera, const Context& context, co
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     planes.clamped = colours.clamped_negative;
     PILEUS_TRY(collectors_display(context, view, state, in, colours, channels, planes));
-    if (is_marched(state)) {
-        // Noise may leave less than nothing in a pixel.
-        const StageClock clock(context, "layers");
-        const std::size_t pixels = planes.transmittance.size();
-        for (std::size_t i = 0; i < 3 * pixels; ++i)
-            if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
-    }
+    if (is_marched(state)) cut_below_zero(context, planes);
     PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
     PILEUS_TRY(collectors_parts(context, view, state, in, planes));
     PILEUS_TRY(show_air(context, view.scene, view.world.medium, lighting, camera, view.environment,

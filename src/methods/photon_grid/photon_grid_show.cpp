@@ -119,13 +119,7 @@ Status compose_photon_grid(const CameraParams& camera, const Context& context,
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     PILEUS_TRY(display_grid(context, view, state, in, planes));
-    {
-        // Noise may leave less than nothing in a pixel.
-        const StageClock clock(context, "layers");
-        const std::size_t pixels = planes.transmittance.size();
-        for (std::size_t i = 0; i < 3 * pixels; ++i)
-            if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
-    }
+    cut_below_zero(context, planes);
     PILEUS_TRY(add_grid_layers(context, view, state, in, planes));
     return show_air(context, view.scene, view.world.medium, state.lights.lighting, camera,
                     view.environment, planes);
