@@ -75,7 +75,7 @@ PILEUS_FN T least_way(T step, T length) {
 
 /// Shortest step as a share of the ray in the box: grids have at most 4096 cells along an axis, so
 /// that a ray still takes two steps or more in each cell it crosses.
-constexpr float kLeastStep = 0x1p-13f;
+constexpr float kMinStep = 0x1p-13f;
 
 /// Most steps of a ray through a periodic medium: a level ray would see no end of it.
 constexpr float kMaxPeriodicSteps = 0x1p17f;
@@ -118,7 +118,7 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
     T n{};  // steps; through constant voxels metres
     auto alive = enter < leave;
     // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
-    const float least = m.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kLeastStep;
+    const float least = m.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kMinStep;
     const T step = max_(all<T>(m.step), (leave - enter) * least), per_metre = 1.0f / step;
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {

@@ -12,7 +12,7 @@ namespace pileus {
 constexpr float kBoundOut = -0x1p20f;
 
 /// Least |component| of a direction that counts; safe_inverse holds on to the same.
-constexpr float kLeastAlong = 1e-18f;
+constexpr float kMinAlong = 1e-18f;
 
 inline namespace PILEUS_ISA {
 
@@ -34,14 +34,14 @@ struct Flight {
 /// the way out are told by one sign, which rounding to -0 would take from some of them.
 template <class T>
 PILEUS_FN T one_zero(T d) {
-    return select(abs_(d) < kLeastAlong, T{}, d);
+    return select(abs_(d) < kMinAlong, T{}, d);
 }
 
 /// Point the lanes of `m` along `d`.
 template <int W>
 PILEUS_FN void aim_flight(Flight<W>& s, const TrackGrid& k, M<W> m, Vec<F<W>> d) {
     d = {one_zero(d.x), one_zero(d.y), one_zero(d.z)};
-    if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kLeastSlope)), d.z);
+    if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kMinSlope)), d.z);
     s.d = {select(m, d.x, s.d.x), select(m, d.y, s.d.y), select(m, d.z, s.d.z)};
 }
 
@@ -92,7 +92,7 @@ PILEUS_FN Vec<F<W>> place_of(const Flight<W>& s) {
 /// How often the flattest flight can leave the sides of a periodic grid before its top.
 PILEUS_FN std::int32_t most_wraps(const TrackGrid& k) {
     const auto edge = [&](int a) { return float(k.size[a]) * k.cell[a]; };
-    const float most = edge(2) * (1.0f / kLeastSlope) * (1.0f / edge(0) + 1.0f / edge(1));
+    const float most = edge(2) * (1.0f / kMinSlope) * (1.0f / edge(0) + 1.0f / edge(1));
     return std::int32_t(min_(most, 0x1p30f)) + 4;
 }
 

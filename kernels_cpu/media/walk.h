@@ -29,11 +29,11 @@ PILEUS_FN T safe_inverse(T d) {
 
 /// Least |d.z| in a periodic grid, 0.0009 degrees: a level ray would fly on for ever through empty
 /// air, so that it is tilted by this much. It leaves a layer within 65536 times its height.
-constexpr float kLeastSlope = 0x1p-16f;
+constexpr float kMinSlope = 0x1p-16f;
 
 template <int W>
 PILEUS_FN void set_direction(Walker<W>& s, const TrackGrid& k, M<W> m, Vec<F<W>> d) {
-    if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kLeastSlope)), d.z);
+    if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kMinSlope)), d.z);
     s.d.x = select(m, d.x, s.d.x);
     s.d.y = select(m, d.y, s.d.y);
     s.d.z = select(m, d.z, s.d.z);

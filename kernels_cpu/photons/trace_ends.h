@@ -89,7 +89,7 @@ PILEUS_FN void bounce(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tal
     if (!any(kept)) return;
 
     // Follow the reflected ray to the box: the farthest entry must lie before the nearest exit.
-    const Vec<T> d{up.a, up.b, max_(up.normal, all<T>(k.grid.periodic != 0 ? kLeastSlope : 1e-6f))};
+    const Vec<T> d{up.a, up.b, max_(up.normal, all<T>(k.grid.periodic != 0 ? kMinSlope : 1e-6f))};
     const Vec<T> inverse{safe_inverse(d.x), safe_inverse(d.y), safe_inverse(d.z)};
     const float ex = float(k.grid.size[0]) * k.grid.cell[0],
                 ey = float(k.grid.size[1]) * k.grid.cell[1],

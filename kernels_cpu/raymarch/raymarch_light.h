@@ -36,7 +36,7 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     const T leave = field_clip(field, Ray<T>{place, d}).leave;
     // All steps alike and to the end, or so many that grow.
     const bool whole = light.steps == 0;
-    const float most = k.medium.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kLeastStep;
+    const float most = k.medium.periodic != 0 ? 1.0f / kMaxPeriodicSteps : kMinStep;
     T width = max_(all<T>(light.first_m), leave * most);
     if (!whole) width = light.first_m > 0 ? all<T>(light.first_m) : leave / light.series;
     SunDepths<T> sum{};

@@ -113,9 +113,7 @@ void paint_slice(const Sheet& sheet, const CellGrid& cells, GridSlices what, int
 Status show_slices(GridSlices what, const Context& context, const FrameView& view,
                    const PhotonGridState& state, Image& image) {
     const Lighting& lighting = state.lights.lighting;
-    const CameraParams camera =
-        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), view.world.medium.low_m);
-    const GridLightInput in = grid_light_input(camera, context, view, state);
+    const GridLightInput in = grid_light_input(context, view, state);
     float axis[3] = {0, 0, -1};
     if (!lighting.lights.empty() && lighting.lights[0].beam)
         for (std::size_t a = 0; a < 3; ++a) axis[a] = lighting.lights[0].travel[a];

@@ -167,8 +167,7 @@ Status draw_collectors(Drawing& d) {
 Status draw_illumination(Drawing& d, Report& report) {
     const Span<const Collector> collectors = d.state().prepared.collectors.span();
     CollectorColours colours;
-    PILEUS_TRY(
-        reconstruct(collectors_reconstruct_input(d.camera, d.context, d.view, d.state()), colours));
+    PILEUS_TRY(reconstruct(collectors_reconstruct_input(d.context, d.view, d.state()), colours));
     Digest digest;
     digest.floats(colours.colour.span());
     report.digests.emplace_back("colours", digest.hex());
@@ -233,8 +232,7 @@ Status draw_view(const Context& context, const FrameView& view, const ViewMethod
                  Image& image) {
     const Medium& medium = view.world.medium;
     const View what = of.what();
-    const CameraParams camera =
-        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
+    const CameraParams& camera = view.camera;
     Drawing d{context, view, of, camera, {}, {}, {}};
     PILEUS_TRY(make_canvas(camera.width, camera.height, view_is_light(what) ? kDarkSky : kNight,
                            d.canvas));

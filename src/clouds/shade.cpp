@@ -15,7 +15,7 @@ constexpr int kGroundNodes = 1024, kNodesOfRadius = 12;
 /// A sun lower than this throws shadows that are longer than skies are wide.
 constexpr double kLowestSine = 0.02;
 /// What is left of sunlight counts as so much at least: a depth of 25.
-constexpr double kLeastLight = 1e-11;
+constexpr double kMinLight = 1e-11;
 constexpr double kLn2 = 0.693147180559945309;
 
 /// Light that is scattered again and again does not end where a shadow does: means over 5 texels
@@ -136,7 +136,7 @@ Status shade_ground(const SunPlane& plane, const std::vector<ShadowSource>& all,
                                                      float(glm::dot(to, plane.up) / c.radius)));
                 if (left >= 1) continue;
                 out.depth[std::size_t(j) * columns + std::size_t(i)] -=
-                    float(kLn2 * log2_of(std::max(left, kLeastLight)));
+                    float(kLn2 * log2_of(std::max(left, kMinLight)));
             }
     }
     return Status::ok();

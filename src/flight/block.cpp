@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kUnit = 64;
 
 /// What calls other than pictures take of small objects, texts of faults.
-constexpr std::uint64_t kLeastSmall = 16u << 10;
+constexpr std::uint64_t kMinSmall = 16u << 10;
 
 class Turn {
 public:
@@ -172,7 +172,7 @@ bool Block::seal() {
     use_.kept_bytes = behind;
     // An ordinary library has them elsewhere.
     const bool none = small_now_ == 0 && use_.small_bytes == 0;
-    small_room_ = none ? 0 : 2 * use_.small_bytes + kLeastSmall;
+    small_room_ = none ? 0 : 2 * use_.small_bytes + kMinSmall;
     return end_ - top_ >= small_room_;
 }
 

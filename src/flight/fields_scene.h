@@ -134,10 +134,11 @@ void fields(A& a, OpticalDepthSettings& v) {
 }
 template <class A>
 void fields(A& a, ParticlesSettings& v) {
-    all(a, v.scattering, v.octaves, v.octave_extinction, v.octave_share, v.octave_anisotropy,
-        v.cone_deg, v.sky_ambient, v.bins, v.leaf, v.light, v.shadow_density, v.occluders,
-        v.light_bias, v.solid_shadow, v.billboards, v.display_scale, v.falloff, v.most_depth,
-        v.stop_below);
+    ParticleOrders& o = v.octaves;
+    ParticleShadows& w = v.shadows;
+    all(a, v.scattering, o.count, o.extinction, o.share, o.anisotropy, o.cone_deg, v.sky_ambient,
+        v.bins, v.leaf, v.light, w.density, w.occluders, w.bias, w.solid, v.billboards,
+        v.display_scale, v.falloff, w.most_depth, v.stop_below);
 }
 
 /// Sessions have one camera and no film.

@@ -88,8 +88,7 @@ Status check_packable(const Scene& scene) {
     if (is_of_collectors(method_column(scene)) &&
         scene.collectors.display.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
-    if (scene.method == "path" && scene.path.importance)
-        return refuse(scene, "path.importance", "not packed", "false");
+    if (scene.path.importance) return refuse(scene, "path.importance", "not packed", "false");
     if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)
         return refuse(scene, "filter.kind", "not packed", "none, regression");
     return Status::ok();

@@ -10,6 +10,7 @@
 #include "src/plan/frame_work.h"
 #include "src/run/context.h"
 #include "src/scene/scene.h"
+#include "src/world/camera/view.h"
 #include "src/world/environment.h"
 
 namespace pileus {
@@ -30,7 +31,8 @@ struct FrameView {
     int frame = 0;             ///< its number
     /// What the suns of other frames of a film are worked out from.
     const FrameState* rest = nullptr;
-    bool depths = false;  ///< a layer, or a host, shows the distance to the media
+    CameraParams camera{};  ///< as the frame sees the media, in metres from their low corner
+    bool depths = false;    ///< a layer, or a host, shows the distance to the media
 
     /// Whether the picture needs it: for that, or for the air before the media.
     bool wants_depth() const { return depths || scene.atmosphere.present; }
@@ -111,8 +113,8 @@ public:
     virtual void restart(const Context& context, std::uint64_t first) {
         (void)context, (void)first;
     }
-    /// The picture as it is lit now. `planes` stay the method's until its next call, and may be
-    /// changed or taken.
+    /// The picture as it is lit now, without the air before it but where the row says so. `planes`
+    /// stay the method's until its next call, and may be changed or taken.
     virtual Status render(const Context& context, const FrameView& view, const RenderAsk& ask,
                           Planes*& planes) = 0;
 
@@ -184,7 +186,10 @@ public:
         (void)light, (void)lines, (void)counts;
         return Status::ok();
     }
-    /// After `Method::render`, before the planes become an image: digests of what it was made from.
+    /// After `Method::render` of a film's frame: what layers of files show besides the picture,
+    /// into its planes. kLimit: out of memory.
+    virtual Status add_layers(const Context&, const FrameView&) { return Status::ok(); }
+    /// After that, before the planes become an image: digests of what it was made from.
     virtual void digest_picture(const Context&, Digests&) {}
     /// Of a view, in place of `Method::render`: the picture itself. docs/how-it-works.md
     virtual Status draw(const Context&, const FrameView&, Image&) { return Status::ok(); }
@@ -225,6 +230,7 @@ struct MethodRow {
     bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
     bool shows_light = true;   ///< colours are light, which an exposure applies to
     Division division = Division::kRows;
+    bool shows_air = false;  ///< `render` does; else whoever asks for the picture
 };
 
 }  // namespace pileus

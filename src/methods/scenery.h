@@ -42,7 +42,15 @@ struct Scenery {
     }
     /// A frame as methods see it; points into this.
     FrameView view(int frame) {
-        return {*scene, *world, environment, lighting, frame, rest, depths};
+        const Double3& low_m = world->medium.low_m;
+        return {*scene,
+                *world,
+                environment,
+                lighting,
+                frame,
+                rest,
+                make_camera(scene->camera, orbit_at(*scene, frame), low_m),
+                depths};
     }
 };
 

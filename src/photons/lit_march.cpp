@@ -199,11 +199,10 @@ Status march_thinned(const Context& context, const FrameView& view, const NodeLi
     return upsample_picture(context, in, state.picture.frame, memory, planes);
 }
 
-LateRows* late_photons(LateRows* late, const FrameView& view, const CameraParams& camera,
-                       const PhotonState& state) {
+LateRows* late_photons(LateRows* late, const FrameView& view, const PhotonState& state) {
     if (photon_batches(state) > 0) return nullptr;
-    return late_rows_of(late, state.lights.lighting, view.world.medium, state.picture.thin, camera,
-                        view.frame);
+    return late_rows_of(late, state.lights.lighting, view.world.medium, state.picture.thin,
+                        view.camera, view.frame);
 }
 
 void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,

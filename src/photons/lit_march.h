@@ -96,8 +96,7 @@ Status march_lit(const Context& context, const FrameView& view, PhotonState& sta
 
 /// late_rows_of a picture whose light is the march's or the blend's alone; null where it has
 /// batches.
-LateRows* late_photons(LateRows* late, const FrameView& view, const CameraParams& camera,
-                       const PhotonState& state);
+LateRows* late_photons(LateRows* late, const FrameView& view, const PhotonState& state);
 
 /// Nodes around the camera, for the plan: the largest number where it moves.
 std::uint64_t near_nodes_of(const Context& context, const FrameView& view, const NodeGrid& nodes);

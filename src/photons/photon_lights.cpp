@@ -13,7 +13,7 @@ namespace pileus {
 namespace {
 
 /// Least share of the scattered light within a cone that is worth a table of its own.
-constexpr double kLeastPeak = 0.3;
+constexpr double kMinPeak = 0.3;
 
 /// The sun that the lights are planned for: one that only rises during an animation needs its
 /// place among them from the start.
@@ -141,7 +141,7 @@ const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonStat
     if (state.lights.lighting.sunlit ? deposit.first_order != 2 : deposit.mode == kDepositOutgoing)
         return "the march does not show the first order";
     if (medium.count != 1) return "other than one medium";
-    if (forward_share(medium.optics[0].phase, peak_deg) < kLeastPeak)
+    if (forward_share(medium.optics[0].phase, peak_deg) < kMinPeak)
         return "the phase function has no peak";
     return nullptr;
 }

@@ -99,12 +99,10 @@ Status PhotonMethod::render(const Context& context, const FrameView& view, const
     picture.turn = shared_.hosted ? picture.turn + 1 : view.frame;
     picture.alone = ask.media_only;
     if (!shared_.hosted) settle_ring(shared_);
-    const double orbit_deg = orbit_at(view.scene, view.frame);
-    const CameraParams camera = make_camera(view.scene.camera, orbit_deg, view.world.medium.low_m);
     planes = &picture.planes;
     picture.planes.clamped = 0;
-    picture.planes.late = late_photons(ask.late, view, camera, shared_);
-    return compose(context, view, camera, picture.planes);
+    picture.planes.late = late_photons(ask.late, view, shared_);
+    return compose(context, view, picture.planes);
 }
 
 LightUnits PhotonMethod::progress() const {

@@ -52,8 +52,7 @@ protected:
     /// sums. kLimit: too much of something.
     virtual Status measure(const Context& context, const FrameView& view, Plan& plan) = 0;
     /// The picture as it is lit now.
-    virtual Status compose(const Context& context, const FrameView& view,
-                           const CameraParams& camera, Planes& planes) = 0;
+    virtual Status compose(const Context& context, const FrameView& view, Planes& planes) = 0;
     /// Whether deposits are made for another view than this one.
     virtual bool is_turned(const FrameView&) const { return false; }
     /// Generations that the sums have room for; a ring holds its own length for ever.

@@ -65,7 +65,7 @@ void begin_photons(const MethodInputs& inputs, PhotonState& state) {
     state.hosted = inputs.live;
     state.error_layer = inputs.scene.output.layer_error;
     state.ring.animated = inputs.live || animation.present;
-    state.ring.many_frames = inputs.live || (animation.present && animation.frames > 1);
+    state.ring.many_frames = inputs.live || animation.is_film();
 }
 
 bool sums_ring(const PhotonState& state) {

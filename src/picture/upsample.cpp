@@ -237,7 +237,7 @@ void put_work(const FrameWork& work, UpsampleSettings& s) {
 void note_upsampling(const Scene& scene, const UpsampleSettings& s, Plan& plan) {
     if (s.scale > 1) plan.need("pixels between marched ones: approximation");
     if (s.temporal > 0) plan.need("pixels from the frame before: approximation");
-    if (s.temporal > 0 && !(scene.animation.present && scene.animation.frames > 1))
+    if (s.temporal > 0 && !scene.animation.is_film())
         plan.leave_out("pixels from the frame before", "one frame");
 }
 

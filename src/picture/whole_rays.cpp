@@ -8,14 +8,14 @@ namespace pileus {
 namespace {
 
 /// What no alpha of a file is off by: where light ends that no eye misses.
-constexpr double kLeastAlpha = 1e-4;
+constexpr double kMinAlpha = 1e-4;
 
 bool shows_data(const OutputSettings& output) {
     return output.layer_optical_depth || output.layer_transmittance;
 }
 
 /// Of a thinned picture alpha is filled in as its colours are.
-bool needs_alpha(const RayEnds& ends) { return !ends.thinned && ends.stop_below > kLeastAlpha; }
+bool needs_alpha(const RayEnds& ends) { return !ends.thinned && ends.stop_below > kMinAlpha; }
 
 /// Empty planes of the picture's size. Rays that need no second march are hidden at once.
 Status allocate_rays(const Planes& of, const std::vector<char>& ended, Planes& out) {

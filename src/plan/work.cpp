@@ -6,7 +6,7 @@ namespace pileus {
 namespace {
 
 constexpr double kThick = 2.3094;  // 4 / sqrt(3): absorbed share of a half space over sqrt(1 - a)
-constexpr double kLeastForward = 1e-6;
+constexpr double kMinForward = 1e-6;
 
 double at_most(double a, double b) { return a < b ? a : b; }
 
@@ -21,7 +21,7 @@ WorkEstimate estimate_work(const WorkInput& in) {
     WorkEstimate out;
     out.photons = in.photons;
     const double lost = 1 - in.albedo;
-    const double forward = 1 - in.mean_cosine > kLeastForward ? 1 - in.mean_cosine : kLeastForward;
+    const double forward = 1 - in.mean_cosine > kMinForward ? 1 - in.mean_cosine : kMinForward;
     const double cut =
         at_most(1.1284 * kThick * __builtin_sqrt(in.max_events / forward), in.max_events);
     double least = cut;

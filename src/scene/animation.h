@@ -48,6 +48,9 @@ struct Animation {
     std::array<double, 2> hours{0, 0};                                 ///< after atmosphere.time
     bool moves_camera = false, moves_sun = false, moves_time = false;  ///< by the ranges above
     std::vector<AnimationKey> keys;                                    ///< by rising frames
+
+    /// Whether there is more than one frame.
+    bool is_film() const { return present && frames > 1; }
 };
 
 bool has_track(const Animation& animation, Track track);

@@ -41,11 +41,11 @@ constexpr const char* kFaultKeys[] = {nullptr, "camera.target_m", "camera.up", "
 /// Along up: by less than a sine of 1e-6, below which the picture's axes lose precision; a zero
 /// vector for up is along every view.
 inline FrameFault frame_fault(const Ground& ground, const Camera& c) {
-    constexpr double kLeastSine = 1e-6;
+    constexpr double kMinSine = 1e-6;
     const Double3 view = c.target_m - c.position_m;
     const double length = glm::length(view);
     if (is_at(c.position_m, c.target_m)) return FrameFault::kAtTarget;
-    if (!(glm::length(glm::cross(view, c.up)) > kLeastSine * length * glm::length(c.up)))
+    if (!(glm::length(glm::cross(view, c.up)) > kMinSine * length * glm::length(c.up)))
         return FrameFault::kAlongUp;
     return is_underground(ground, c) ? FrameFault::kUnderground : FrameFault::kNone;
 }

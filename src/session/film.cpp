@@ -34,7 +34,7 @@ namespace {
 
 /// The frame's own, where there are several.
 std::string state_path(const Scene& scene, const Budget& budget, int frame) {
-    const bool several = scene.animation.present && scene.animation.frames > 1;
+    const bool several = scene.animation.is_film();
     if (budget.state.empty() || !several) return budget.state;
     return numbered_path(budget.state, frame);
 }
@@ -190,12 +190,11 @@ Status Session::show_frame(const FilmFrame& step, Image& image) {
     report_.digests = digests_;
     if (!options_.show.empty()) return made_.report->draw(context_, view, image);
     Planes* planes = nullptr;
-    PILEUS_TRY(method.render(context_, view, {}, planes));
+    PILEUS_TRY(draw(view, {}, planes));
+    PILEUS_TRY(made_.report->add_layers(context_, view));
     made_.report->digest_picture(context_, report_.digests);
-    const CameraParams camera =
-        make_camera(scene_.camera, orbit_at(scene_, step.frame), world().medium.low_m);
-    PILEUS_TRY(finish_frame(context_, scene_.output, world(), scenery_.environment.depth, camera,
-                            made_.report->finished(), *planes, image, report_));
+    PILEUS_TRY(finish_frame(context_, scene_.output, world(), scenery_.environment.depth,
+                            view.camera, made_.report->finished(), *planes, image, report_));
     method.release(Phase::kShown);
     return Status::ok();
 }

@@ -137,7 +137,7 @@ bool frames_stand_alone(const Scene& scene) { return has_worlds(scene) || has_mo
 
 int film_run(const Scene& scene) {
     constexpr int kFrames = 16;
-    if (!scene.animation.present || scene.animation.frames < 2) return 0;
+    if (!scene.animation.is_film()) return 0;
     if (scene.clouds.present()) return kFrames;
     const MethodTools tools = method_tools(scene.method);
     if (frames_stand_alone(scene) || tools.film_memory == nullptr) return 0;

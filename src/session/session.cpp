@@ -7,6 +7,7 @@
 #include "src/base/digest.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/methods/registry.h"
+#include "src/picture/air_view.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -203,6 +204,13 @@ Status Session::step(std::uint64_t units, std::uint64_t& done) {
 
 LightUnits Session::light() const { return made_.method->progress(); }
 
+Status Session::draw(const FrameView& view, const RenderAsk& ask, Planes*& planes) {
+    PILEUS_TRY(made_.method->render(context_, view, ask, planes));
+    if (row_.shows_air) return Status::ok();
+    return show_air(context_, view.scene, view.world.medium, view.lighting, view.camera,
+                    view.environment, *planes);
+}
+
 Status Session::render(const FrameTarget& target) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
@@ -235,7 +243,7 @@ Status Session::render(const FrameTarget& target) {
     late_.params.filled = 0;
     RenderAsk ask;
     ask.late = late ? &late_ : nullptr;
-    PILEUS_TRY(made_.method->render(context_, view(), ask, planes));
+    PILEUS_TRY(draw(view(), ask, planes));
     const Planes* const fresh = planes;
     if (fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scenery_, made_.method->keeps_planes(), planes));

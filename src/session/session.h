@@ -207,6 +207,8 @@ private:
     };
 
     FrameView view() { return scenery_.view(host_.number); }
+    /// The method's picture, seen through the air.
+    Status draw(const FrameView& view, const RenderAsk& ask, Planes*& planes);
     Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
                        bool hosted, bool exact, std::shared_ptr<const World> world);
     Status film_frame(const FilmFrame& step, Image& image);

@@ -18,7 +18,7 @@ namespace pileus {
 namespace {
 
 /// Of a length or its square.
-bool is_positive(double v) { return v >= kLeastPositive && v < 1e15; }
+bool is_positive(double v) { return v >= kMinPositive && v < 1e15; }
 
 Status check_frustum(const Camera& camera, bool billboards) {
     if (!camera.has_frustum) return Status::ok();
@@ -330,7 +330,7 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     ask.view_slack_deg = slack_deg;
     last_.planes = nullptr;
     Planes* own = nullptr;
-    PILEUS_TRY(made_.method->render(context_, view(), ask, own));
+    PILEUS_TRY(draw(view(), ask, own));
     planes = own;
     ++stats_.pictures;
     return Status::ok();

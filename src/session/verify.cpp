@@ -17,7 +17,7 @@ namespace {
 
 /// For each pixel. Noise of 1000 paths is some per cent of a pixel: less than pixels differ by.
 constexpr std::uint32_t kSamples = 1024;
-constexpr float kLeastAlpha = 0.02f;
+constexpr float kMinAlpha = 0.02f;
 
 /// One of each of `wanted` equal runs of the shown pixels that show media, row by row; all where
 /// they are no more.
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> choose_pixels(const Image& image, const Shown& shown,
     if (alpha == nullptr) return chosen;
     for (std::size_t i = 0; i < alpha->pixels.size(); ++i) {
         const std::size_t width = std::size_t(image.width);
-        if (alpha->pixels[i] > kLeastAlpha && shown.holds(int(i % width), int(i / width)))
+        if (alpha->pixels[i] > kMinAlpha && shown.holds(int(i % width), int(i / width)))
             seen.push_back(std::uint32_t(i));
     }
     if (seen.size() <= wanted) return seen;

@@ -201,6 +201,7 @@ void check_march(const MethodRow& row, const Fixture& f) {
     REQUIRE(run.open(row, made, f.scene, f.context));
     Planes* planes = nullptr;
     REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
+    REQUIRE(made.report->add_layers(f.context, run.view(0)));
     Bytes held = held_by(run, state.media.majorants);
     held["sunlight's optical depth on nodes"] = state.light.sun.nodes.optical_depth.bytes();
     held["skylight on nodes"] = state.light.sky.nodes.light.bytes();
@@ -239,6 +240,7 @@ void check_particles(const Fixture& f) {
     REQUIRE(run.plan.exact);
     Planes* planes = nullptr;
     REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
+    REQUIRE(made.report->add_layers(f.context, run.view(0)));
     Bytes held = held_by(run, state.majorants);
     held["particles"] = state.tree.balls.bytes();
     const ParticleSet& set = run.world->particles;

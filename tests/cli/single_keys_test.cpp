@@ -26,8 +26,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// At the ends of floats, and of the row's range as doubles and as floats.
 std::vector<double> numbers_for(const KeyRow& row) {
     std::vector<double> all{
-        4.9e-324,     1e-300, 1e-46, 1e-45, 1e-41, 1e-38,        1.1754943508222874e-38,
-        kLeastSingle, 1e-30,  1e-10, 1e30,  1e38,  3.4028235e38, 3.5e38,
+        4.9e-324,   1e-300, 1e-46, 1e-45, 1e-41, 1e-38,        1.1754943508222874e-38,
+        kMinSingle, 1e-30,  1e-10, 1e30,  1e38,  3.4028235e38, 3.5e38,
         1e39};
     const KeyRange& r = row.allowed.range;
     for (const double end : {r.low, r.high})
@@ -89,7 +89,7 @@ void check_held(const KeyRow& row, double value) {
     CAPTURE(value);
     const float single = float(value);
     CHECK(std::isfinite(single));
-    CHECK((value == 0 || std::fabs(double(single)) >= kLeastSingle));
+    CHECK((value == 0 || std::fabs(double(single)) >= kMinSingle));
     CHECK((!row.allowed.range.high_open || single < float(row.allowed.range.high)));
 }
 

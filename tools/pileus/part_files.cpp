@@ -32,7 +32,7 @@ void add_part_options(CLI::App& command, PartArguments& arguments) {
 }
 
 int divided_run(const Scene& scene) {
-    const bool film = scene.animation.present && scene.animation.frames > 1;
+    const bool film = scene.animation.is_film();
     return film ? std::max(film_run(scene), 1) : 0;
 }
 

@@ -37,7 +37,7 @@ Status StudyFiles::digest_scene(const std::string& scene, const std::vector<std:
                                 std::string& hex) {
     Scene read;
     PILEUS_TRY(read_scene_file(scene, sets, read));
-    if (read.animation.present && read.animation.frames > 1)
+    if (read.animation.is_film())
         return Status::bad_input(scene + ": animation.frames: a study compares single pictures, " +
                                  std::to_string(read.animation.frames) + ", allowed: 1");
     scenes_.insert(scene);

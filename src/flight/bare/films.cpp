@@ -4,8 +4,6 @@
 // in: a scene -> out: what it is without an animation. docs/flight.md, "Build"
 #include "src/methods/collectors/collectors_display.h"
 #include "src/methods/march/march_budget.h"
-#include "src/methods/march/march_parts.h"
-#include "src/methods/particles/particles_state.h"
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/lit_march.h"
 #include "src/scene/frames.h"
@@ -47,13 +45,6 @@ Status add_grid_layers(const Context&, const FrameView&, PhotonGridState&, const
                        Planes&) {
     return Status::ok();
 }
-Status march_parts(const Context&, const FrameView&, const RaymarchInput&, MarchState&) {
-    return Status::ok();
-}
-Status follow_march(const Context&, const FrameView&, const RaymarchInput&, MarchState&) {
-    return Status::ok();
-}
-Status follow_particles(const Context&, const FrameView&, ParticlesState&) { return Status::ok(); }
 Status choose_march_work(const Context&, const FrameView&, double, const UpsampleInput&,
                          MarchState&) {
     return Status::ok();

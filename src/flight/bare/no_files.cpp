@@ -37,11 +37,6 @@ Status check_changed(const char* key, const Scene&, void (*)(const void*, Scene&
                              ": refused in a flight, allowed: docs/flight.md, \"What may change\"");
 }
 
-bool shows_particles(const Scene& scene) {
-    // A packed world of another kind is refused by the session.
-    return scene.method == "particles";
-}
-
 Status read_sky_map(const Scene& scene, const Context&, const Image* sky, SkyMap& map) {
     if (sky == nullptr) return Status::ok();
     return make_sky_map("sky.map", *sky, scene.sky, scene.ground.present, map);

@@ -13,8 +13,8 @@
 namespace pileus {
 
 std::unique_ptr<MethodReport> collectors_report(CollectorsMethod&) { return nullptr; }
-std::unique_ptr<MethodReport> march_report(const MarchMethod&) { return nullptr; }
-std::unique_ptr<MethodReport> particles_report(const ParticlesMethod&) { return nullptr; }
+std::unique_ptr<MethodReport> march_report(MarchMethod&) { return nullptr; }
+std::unique_ptr<MethodReport> particles_report(ParticlesMethod&) { return nullptr; }
 std::unique_ptr<MethodReport> path_report(PathMethod&, const Budget&) { return nullptr; }
 std::unique_ptr<MethodReport> photon_grid_report(PhotonGridMethod&) { return nullptr; }
 

@@ -168,9 +168,8 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         if (radius - own > largest) largest = radius - own;
         double density = double(set.density[i]) / s.share;
         if (s.cross_section) density /= kBallMass * radius * radius * radius;
-        if (!(float(radius * smallest) >= float(kLeastPositive)) ||
-            !(radius <= kMaxParticlePlace) || !(density <= kMaxOfParticle) ||
-            !(density * denser <= kMaxSigma))
+        if (!(float(radius * smallest) >= float(kMinPositive)) || !(radius <= kMaxParticlePlace) ||
+            !(density <= kMaxOfParticle) || !(density * denser <= kMaxSigma))
             return Status::bad_input(
                 name + ": particle " + std::to_string(i) + ": radius or extinction out of range, " +
                 number_text(radius * smallest) + " m and " + number_text(density * denser) +

@@ -75,9 +75,8 @@ TraceInput CollectorsMethod::trace_input(const Context& context, const FrameView
     return in;
 }
 
-Status CollectorsMethod::compose(const Context& context, const FrameView& view,
-                                 const CameraParams& camera, Planes& planes) {
-    return compose_collectors(camera, context, view, trace_input(context, view), state_, planes);
+Status CollectorsMethod::compose(const Context& context, const FrameView& view, Planes& planes) {
+    return compose_collectors(context, view, trace_input(context, view), state_, planes);
 }
 
 MethodRow collectors_row() {

@@ -33,8 +33,7 @@ protected:
     Status measure(const Context& context, const FrameView& view, Plan& plan) override {
         return measure_collectors(context, view, state_, plan);
     }
-    Status compose(const Context& context, const FrameView& view, const CameraParams& camera,
-                   Planes& planes) override;
+    Status compose(const Context& context, const FrameView& view, Planes& planes) override;
 
 private:
     CollectorsState state_;

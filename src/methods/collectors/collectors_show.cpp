@@ -4,12 +4,11 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
-#include "src/picture/air_view.h"
 
 namespace pileus {
 
-ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
-                                              const FrameView& view, const CollectorsState& state) {
+ReconstructInput collectors_reconstruct_input(const Context& context, const FrameView& view,
+                                              const CollectorsState& state) {
     ReconstructInput in;
     in.medium = &view.world.medium;
     in.lighting = &state.lights.lighting;
@@ -17,7 +16,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     if (sums_ring(state) && state.ring.sum.sum.generations > 0) in.whole = &state.ring.sum.sum;
     in.collectors = state.prepared.collectors.span();
     in.shares = state.prepared.shares.span();
-    in.camera = camera;
+    in.camera = view.camera;
     in.deposit = state.lights.deposit;
     in.closure = state.camera_cells > 0        ? Closure::kCamera
                  : state.settings.closure.lobe ? Closure::kLobe
@@ -31,14 +30,14 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     return in;
 }
 
-Status compose_collectors(const CameraParams& camera, const Context& context, const FrameView& view,
-                          const TraceInput& launches, CollectorsState& state, Planes& planes) {
+Status compose_collectors(const Context& context, const FrameView& view, const TraceInput& launches,
+                          CollectorsState& state, Planes& planes) {
     {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(sum_ring(launches, state));
     }
     const Lighting& lighting = state.lights.lighting;
-    const ReconstructInput in = collectors_reconstruct_input(camera, context, view, state);
+    const ReconstructInput in = collectors_reconstruct_input(context, view, state);
     CollectorColours colours;
     if (!shows_harmonics(view, state)) {
         const StageClock clock(context, "reconstruct");
@@ -47,8 +46,8 @@ Status compose_collectors(const CameraParams& camera, const Context& context, co
     const int channels = 3 * (1 + in.batches);
     {
         const StageClock clock(context, "background");
-        PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, lighting.opaque(),
-                                   view.wants_depth(), planes));
+        PILEUS_TRY(allocate_planes(view.camera.width, view.camera.height, channels,
+                                   lighting.opaque(), view.wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     planes.clamped = colours.clamped_negative;
@@ -56,8 +55,6 @@ Status compose_collectors(const CameraParams& camera, const Context& context, co
     if (is_marched(state)) cut_below_zero(context, planes);
     PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
     PILEUS_TRY(collectors_parts(context, view, state, in, planes));
-    PILEUS_TRY(show_air(context, view.scene, view.world.medium, lighting, camera, view.environment,
-                        planes));
     if (!context.digests || shows_harmonics(view, state)) return Status::ok();
     const StageClock clock(context, "layers");
     note_colours(context, colours.colour.span(), state);

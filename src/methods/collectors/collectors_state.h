@@ -56,12 +56,12 @@ Status measure_collectors(const Context& context, const FrameView& view, Collect
                           Plan& plan);
 
 /// What the colours of the collectors towards a camera are made from.
-ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
-                                              const FrameView& view, const CollectorsState& state);
+ReconstructInput collectors_reconstruct_input(const Context& context, const FrameView& view,
+                                              const CollectorsState& state);
 
 /// The picture of the lit collectors as planes; `launches` reads what they do.
-Status compose_collectors(const CameraParams& camera, const Context& context, const FrameView& view,
-                          const TraceInput& launches, CollectorsState& state, Planes& planes);
+Status compose_collectors(const Context& context, const FrameView& view, const TraceInput& launches,
+                          CollectorsState& state, Planes& planes);
 
 /// Blends the collectors as billboards of these colours, [channel][collector]; `opaque_depth` as in
 /// BillboardScene, or null.

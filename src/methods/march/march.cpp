@@ -240,7 +240,7 @@ StepParams raymarch_steps(const RaymarchStepSettings& s, const CameraParams& cam
             }
             k.grows = k.by_distance = 1;
             // No nearer than what is told from 0: the way over it is a number.
-            k.near_m = (s.first_step_m > 0 ? float(std::max(s.first_step_m, kLeastPositive))
+            k.near_m = (s.first_step_m > 0 ? float(std::max(s.first_step_m, kMinPositive))
                                            : 0.5f * smallest_cell(grid)) /
                        k.pixel;
             break;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame of a march: light on nodes, background, marched pixels, lamps, parts of the light, air.
+// One frame of a march: light on nodes, background, marched pixels, lamps.
 // in: a prepared MarchState -> out: its planes.
 // docs/raymarch.md
 #include "platform/clock.h"
 #include "src/methods/march/march_budget.h"
 #include "src/methods/march/march_parts.h"
-#include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/late_rows.h"
@@ -35,7 +34,7 @@ LateRows* late_march(const FrameView& view, LateRows* late, const MarchState& st
     const OutputSettings& output = view.scene.output;
     if (output.layer_light || output.layer_order || state.choice.seconds > 0) return nullptr;
     return late_rows_of(late, view.lighting, view.world.medium, state.choice.settings.thin,
-                        state.picture.camera, view.frame);
+                        view.camera, view.frame);
 }
 
 /// Empty planes of the layers that are asked for.
@@ -43,13 +42,15 @@ Status allocate_picture(const Context& context, const FrameView& view, MarchPict
     // Clearing memory is part of it.
     const StageClock clock(context, "background");
     Planes& planes = picture.planes;
-    PILEUS_TRY(allocate_planes(picture.camera.width, picture.camera.height, 3,
-                               view.lighting.opaque(), view.wants_depth(), planes));
+    PILEUS_TRY(allocate_planes(view.camera.width, view.camera.height, 3, view.lighting.opaque(),
+                               view.wants_depth(), planes));
     if (view.scene.output.layer_optical_depth)
         PILEUS_TRY(
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
     return Status::ok();
 }
+
+}  // namespace
 
 RaymarchInput march_input(const FrameView& view, const MarchState& state) {
     const MarchLight& light = state.light;
@@ -77,11 +78,9 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
     // Frame f of an animation has the jitter of the seed f further on.
     in.seed = std::uint64_t(view.scene.seed) + std::uint64_t(view.frame);
     in.layer = view.world.direct_sky ? &view.world.layer : nullptr;
-    in.camera = state.picture.camera;
+    in.camera = view.camera;
     return in;
 }
-
-}  // namespace
 
 const float* lamp_tables(const MarchState& state) {
     return state.light.ordinates.nodes.peak.tables.data();
@@ -91,9 +90,8 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     const Medium& medium = marched_medium(view, state);
     const RaymarchSettings& settings = state.choice.settings;
     const auto& look = state.choice.look;
-    LampMarchParams k =
-        lamp_march_params(medium, state.media.majorants, view.lighting, state.picture.camera,
-                          state.light.lamps, settings.march.stop_below);
+    LampMarchParams k = lamp_march_params(medium, state.media.majorants, view.lighting, view.camera,
+                                          state.light.lamps, settings.march.stop_below);
     k.octaves = octaves_of(settings.scattering);
     set_octaves(settings, medium, k.albedo, k.octave_g, k.octave_source);
     k.octave_depths = octave_depths(k.octaves, medium);
@@ -128,10 +126,10 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     const Medium& medium = view.world.medium;
     GroundShadow& shadow = state.light.ground_shadow;
     const MediumView read = make_medium_view(medium, state.media.majorants);
-    PILEUS_TRY(make_ground_shadow(context, medium, read, view.lighting, state.picture.camera,
+    PILEUS_TRY(make_ground_shadow(context, medium, read, view.lighting, view.camera,
                                   march_turn(view, state), shadow));
     const StageClock clock(context, "background");
-    BackgroundParams k = background_params(read, state.picture.camera, light);
+    BackgroundParams k = background_params(read, view.camera, light);
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(shadow, k, b);
     if (state.choice.settings.scattering.ordinates)
@@ -142,14 +140,8 @@ Status march_background(const Context& context, const FrameView& view, const Lig
 
 Status march_frame(const Context& context, const FrameView& view, const RenderAsk& ask,
                    MarchState& state) {
-    const Medium& medium = view.world.medium;
     MarchPicture& picture = state.picture;
     const double start_s = wall_seconds();
-    {
-        const StageClock clock(context, "lights");
-        picture.camera =
-            make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
-    }
     if (state.choice.settings.march.jitter == RaymarchJitterKind::kBlueNoise &&
         picture.noise.empty())
         PILEUS_TRY(make_blue_noise(picture.noise));
@@ -162,14 +154,14 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
         PILEUS_TRY(march_background(context, view, view.lighting, state, picture.planes));
     RaymarchInput in = march_input(view, state);
     UpsampleInput thin;
-    thin.camera = picture.camera;
+    thin.camera = view.camera;
     thin.medium = make_medium_view(*in.medium, state.media.majorants);
     thin.to_sun = view.lighting.to_sun;
     thin.march = [&](const PixelLattice& lattice, Planes& planes) {
         in.lattice = lattice;
         return raymarch_picture(context, in, planes, picture.tally);
     };
-    if (state.choice.sky_nodes && view.lighting.sunlit && medium.sigma > 0) {
+    if (has_sky_light(view, state)) {
         SkyLight& nodes = state.light.sky.layer;
         PILEUS_TRY(follow_sky_light(context, raymarch_params(in), view.world.layer.params,
                                     sky_light_bits(state.choice), kNearSteps,
@@ -179,11 +171,7 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
     PILEUS_TRY(choose_march_work(context, view, start_s, thin, state));
     thin.settings = state.choice.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, view.frame, picture.upsample, picture.planes));
-    PILEUS_TRY(add_lamps(context, view, state));
-    PILEUS_TRY(march_parts(context, view, in, state));
-    PILEUS_TRY(show_air(context, view.scene, medium, view.lighting, picture.camera,
-                        view.environment, picture.planes));
-    return state.choice.hosted ? Status::ok() : follow_march(context, view, in, state);
+    return add_lamps(context, view, state);
 }
 
 }  // namespace pileus

@@ -57,7 +57,7 @@ Status light_sky(const Context& context, const FrameView& view, double slack_deg
     if (!settings.light.sky_ambient || settings.scattering.ordinates || medium.sigma <= 0)
         return Status::ok();
     MarchLight& light = state.light;
-    const CameraParams& camera = state.picture.camera;
+    const CameraParams& camera = view.camera;
     const SkyView sky = sky_view(view, state);
     const bool seen = !sky.turned || same_way(medium, slack_deg, light.sky.camera, camera);
     if (light.sky.made && seen && light.sky.to_sun == view.lighting.to_sun) return Status::ok();
@@ -112,7 +112,7 @@ SkyView sky_view(const FrameView& view, const MarchState& state) {
     const World& world = view.world;
     out.turned = !state.choice.look && !world.medium.grid.periodic &&
                  !(world.direct_sky && world.layer.params.boxed == 0);
-    out.camera = state.picture.camera;
+    out.camera = view.camera;
     out.anisotropy = float(state.choice.settings.scattering.octave_anisotropy);
     return out;
 }

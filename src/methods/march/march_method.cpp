@@ -86,9 +86,8 @@ Status MarchMethod::set_view(const Context&, const FrameView& view, const ViewCh
     }
     const auto& size = view.scene.camera.resolution;
     const bool opaque = view.lighting.opaque();
-    if (picture.camera.width != size[0] || picture.camera.height != size[1] ||
-        picture.opaque != opaque)
-        forget_pictures(picture.upsample);
+    if (picture.size != size || picture.opaque != opaque) forget_pictures(picture.upsample);
+    picture.size = size;
     picture.opaque = opaque;
     return Status::ok();
 }

@@ -15,6 +15,7 @@ struct MethodTools;
 class MarchMethod final : public Method {
 public:
     explicit MarchMethod(MarchChoice choice);
+    MarchState& state() { return state_; }
     const MarchState& state() const { return state_; }
 
     Status plan(const Context& context, const FrameView& view, Plan& plan) override;
@@ -37,7 +38,7 @@ private:
 };
 
 /// The method outlives it.
-std::unique_ptr<MethodReport> march_report(const MarchMethod& method);
+std::unique_ptr<MethodReport> march_report(MarchMethod& method);
 
 Status check_raymarch(const Scene& scene, const Budget& budget);
 Status check_optical_depth(const Scene& scene, const Budget& budget);

@@ -82,12 +82,12 @@ Status light_sky_levels(const Context& context, const FrameView& view, const Lig
     in.settings = &state.choice.settings;
     in.march_light = true;
     in.layer = &view.world.layer;
-    in.camera = state.picture.camera;
+    in.camera = view.camera;
     const RaymarchParams march = raymarch_params(in);
     SkyOrdinateAsk ask;
     ask.march = &march;
     ask.sky = &view.world.layer.params;
-    ask.camera = state.picture.camera;
+    ask.camera = view.camera;
     ask.pictures = pictures;
     return follow_sky_ordinates(context, medium, state.media.majorants, lighting, ask,
                                 state.light.ordinates.sky);
@@ -125,7 +125,7 @@ Status solve_ordinates_for(const Context& context, const FrameView& view, const 
     const Medium& medium = view.world.medium;
     const OrdinateAsk ask = ask_of(medium, own, state);
     PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, light, ask, nodes));
-    return turn_ordinates(context, medium, state.picture.camera, true, nodes);
+    return turn_ordinates(context, medium, view.camera, true, nodes);
 }
 
 Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
@@ -138,7 +138,7 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
     if (!light.ordinates.sky.levels.empty())
         return light_sky_levels(context, view, view.lighting, refresh, state);
     if (light.ordinates.nodes.density.empty()) return Status::ok();
-    const CameraParams& camera = state.picture.camera;
+    const CameraParams& camera = view.camera;
     OrdinateAsk ask = ask_of(medium, own_light_of(view, state), state);
     // set_view tells of other lights than the sun's direction.
     bool solve = !light.sky.made || light.sky.to_sun != view.lighting.to_sun;

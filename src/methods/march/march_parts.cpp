@@ -18,9 +18,9 @@ Status no_light(const MarchState& state, Buffer<float>& out) {
     return allocate(arrays::picture_planes(3, state.picture.planes.transmittance.size()), out);
 }
 
-Status allocate_part(const FrameView& view, const MarchPicture& picture, Planes& part) {
-    return allocate_planes(picture.camera.width, picture.camera.height, 3, view.lighting.opaque(),
-                           false, part);
+Status allocate_part(const FrameView& view, Planes& part) {
+    return allocate_planes(view.camera.width, view.camera.height, 3, view.lighting.opaque(), false,
+                           part);
 }
 
 void take_opaque_depth(const Planes& from, Planes& part) {
@@ -30,7 +30,7 @@ void take_opaque_depth(const Planes& from, Planes& part) {
 /// A picture of `in` alone, before the background that `light` shows; null: before none.
 Status show_part(const Context& context, const FrameView& view, const RaymarchInput& in,
                  const Lighting* light, MarchState& state, Planes& part) {
-    PILEUS_TRY(allocate_part(view, state.picture, part));
+    PILEUS_TRY(allocate_part(view, part));
     if (light != nullptr) PILEUS_TRY(march_background(context, view, *light, state, part));
     take_opaque_depth(state.picture.planes, part);
     RaymarchTally counted;  // of the picture's own march alone
@@ -188,24 +188,16 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
     return Status::ok();
 }
 
-}  // namespace
-
-bool march_emits(const FrameView& view, const MarchState& state) {
-    const auto& ambient = state.choice.settings.look.ambient;
-    return emits(marched_medium(view, state)) || ambient[0] > 0 || ambient[1] > 0 || ambient[2] > 0;
-}
-
-Status march_parts(const Context& context, const FrameView& view, const RaymarchInput& whole,
-                   MarchState& state) {
+/// Parts of the picture's light.
+Status show_parts(const Context& context, const FrameView& view, const RaymarchInput& in,
+                  MarchState& state) {
     const OutputSettings& output = view.scene.output;
-    RaymarchInput in = whole;
-    in.lattice = PixelLattice{};
     Planes part;
     if (output.layer_light) {
         PILEUS_TRY(view.lighting.sunlit ? show_sun(context, view, in, state, part)
                                         : no_light(state, state.picture.planes.sun));
         if (march_emits(view, state)) PILEUS_TRY(show_emission(context, view, in, state, part));
-        PILEUS_TRY(allocate_part(view, state.picture, part));
+        PILEUS_TRY(allocate_part(view, part));
         if (!view.lighting.lamps.empty()) {
             take_opaque_depth(state.picture.planes, part);
             PILEUS_TRY(show_each_lamp(context, view, in, state, part));
@@ -214,6 +206,7 @@ Status march_parts(const Context& context, const FrameView& view, const Raymarch
     return output.layer_order ? show_single(context, view, in, state, part) : Status::ok();
 }
 
+/// Data of whole rays: after all that looks at where colours end.
 Status follow_march(const Context& context, const FrameView& view, const RaymarchInput& whole,
                     MarchState& state) {
     const RaymarchSettings& settings = state.choice.settings;
@@ -228,7 +221,6 @@ Status follow_march(const Context& context, const FrameView& view, const Raymarc
         own.scattering.many = own.scattering.forward = own.scattering.automatic = false;
         std::copy_n(kDark, 3, own.look.ambient.begin());
         RaymarchInput in = whole;
-        in.lattice = PixelLattice{};
         in.lighting = &dark;
         in.settings = &own;
         in.nodes.sky = nullptr;
@@ -237,6 +229,20 @@ Status follow_march(const Context& context, const FrameView& view, const Raymarc
         return raymarch_picture(context, in, rays, counted);
     };
     return follow_rays(view.scene.output, ends, march, state.picture.planes);
+}
+
+}  // namespace
+
+bool march_emits(const FrameView& view, const MarchState& state) {
+    const auto& ambient = state.choice.settings.look.ambient;
+    return emits(marched_medium(view, state)) || ambient[0] > 0 || ambient[1] > 0 || ambient[2] > 0;
+}
+
+Status add_march_layers(const Context& context, const FrameView& view, MarchState& state) {
+    RaymarchInput in = march_input(view, state);
+    if (has_sky_light(view, state)) in.nodes.sky_light = &state.light.sky.layer.view;
+    PILEUS_TRY(show_parts(context, view, in, state));
+    return follow_march(context, view, in, state);
 }
 
 std::uint64_t march_part_planes(const FrameView& view, const MarchState& state) {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a marched picture's light.
-// in: MarchState whose picture is marched -> out: planes of the layers light and order.
+// Layers of files of a marched picture.
+// in: MarchState whose picture is marched -> out: planes of the layers.
 // docs/formats.md, "Pictures out"; docs/raymarch.md, "Parts of the light".
 #pragma once
 #include "src/methods/march/march_state.h"
 
 namespace pileus {
 
-/// Planes of the parts that layers show; `whole` marched the picture. kLimit: out of memory.
-Status march_parts(const Context& context, const FrameView& view, const RaymarchInput& whole,
-                   MarchState& state);
+/// What layers of files show of a picture: parts of its light, data of whole rays. kLimit: out of
+/// memory.
+Status add_march_layers(const Context& context, const FrameView& view, MarchState& state);
 
-/// Data of whole rays, where layers show them: after all that looks at where colours end. kLimit:
-/// out of memory.
-Status follow_march(const Context& context, const FrameView& view, const RaymarchInput& whole,
-                    MarchState& state);
+/// What marches the picture, whose light is on nodes; nodes of a sky's own light are set where
+/// there are any.
+RaymarchInput march_input(const FrameView& view, const MarchState& state);
+inline bool has_sky_light(const FrameView& view, const MarchState& state) {
+    return state.choice.sky_nodes && view.lighting.sunlit && view.world.medium.sigma > 0;
+}
 
 /// Numbers a pixel of parts, and whether media emit, which is a part of its own.
 std::uint64_t march_part_planes(const FrameView& view, const MarchState& state);

@@ -179,9 +179,8 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     }
     // Hosts have a spare level.
     if (levels && state.choice.hosted && sizes.levels > 1) ++sizes.levels;
-    const bool moves = state.choice.hosted || view.scene.animation.frames > 1;
-    const CameraParams camera =
-        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
+    const bool moves = state.choice.hosted || view.scene.animation.is_film();
+    const CameraParams& camera = view.camera;
     if (!made.density.empty() && !moves) sizes.moments = sees_moments(medium, camera, made.grid);
     sizes.sunlit = view.lighting.sunlit;
     sizes.points = !levels && may_have_lamps(view, state.choice);
@@ -274,7 +273,7 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
 
 class MarchReport final : public MethodReport {
 public:
-    explicit MarchReport(const MarchMethod& of) : of_(of) {}
+    explicit MarchReport(MarchMethod& of) : of_(of) {}
 
     void explain(const Context& context, const FrameView& view, Plan& plan) const override {
         note_plan(view, of_.state(), plan);
@@ -285,6 +284,10 @@ public:
 
     void digest(const FrameView& view, Digests& digests) const override {
         digests = {{"density", density_digest(view.world)}};
+    }
+
+    Status add_layers(const Context& context, const FrameView& view) override {
+        return add_march_layers(context, view, of_.state());
     }
 
     FinishedParts finished() const override {
@@ -329,12 +332,12 @@ public:
     }
 
 private:
-    const MarchMethod& of_;
+    MarchMethod& of_;
 };
 
 }  // namespace
 
-std::unique_ptr<MethodReport> march_report(const MarchMethod& method) {
+std::unique_ptr<MethodReport> march_report(MarchMethod& method) {
     return std::make_unique<MarchReport>(method);
 }
 

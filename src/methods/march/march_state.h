@@ -80,7 +80,7 @@ struct MarchLight {
 
 /// The last picture.
 struct MarchPicture {
-    CameraParams camera{};
+    std::array<int, 2> size{};
     bool opaque = false;  ///< something solid could be in it
     Planes planes;
     UpsampleMemory upsample;

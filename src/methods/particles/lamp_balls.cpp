@@ -91,7 +91,7 @@ void see_past_solids(const Context& context, const FrameView& view, const Partic
         return;
     }
     const LightPlaces places = light_places(state.settings, lamp);
-    const float left = float(state.settings.solid_shadow);
+    const float left = float(state.settings.shadows.solid);
     parallel_each(context.threads, state.tree.balls.size(), [&](std::size_t i) {
         seen[i] = seen_by(solids, state.tree.balls[i], lamp, places, left);
     });
@@ -106,7 +106,7 @@ Status light_by_lamps(const Context& context, const FrameView& view, ParticlesSt
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_reach));
     if (view.world.solids.meshes)
         PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_seen));
-    const double most = state.settings.most_depth;
+    const double most = state.settings.shadows.most_depth;
     Buffer<float> depths;
     for (std::size_t l = 0; l < lamps.size(); ++l) {
         const LampParams& lamp = lamps[l];

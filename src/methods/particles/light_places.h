@@ -22,7 +22,7 @@ LightPlaces light_places(const ParticlesSettings& settings, const LampParams& la
 
 /// Balls that shadow others towards parallel lights.
 inline Span<const ParticleBall> casts_of(const ParticlesState& state) {
-    return state.settings.occluders < 1 ? state.occluders.span() : state.tree.balls.span();
+    return state.settings.shadows.occluders < 1 ? state.occluders.span() : state.tree.balls.span();
 }
 
 /// The linear function through the depths at the places, each `stride` numbers after the other.

@@ -19,7 +19,7 @@ namespace {
 Octaves octaves_of(const ParticlesState& state) {
     const ParticlesSettings& s = state.settings;
     const bool many = s.scattering == ParticleScattering::kOctaves;
-    return {many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
+    return {many ? s.octaves.count : 1, float(s.octaves.extinction), float(s.octaves.share)};
 }
 
 /// Corners of a tetrahedron of unit arms along light_axes: two opposite edges lie across the light,
@@ -40,7 +40,7 @@ Status light_by_sun(const Context& context, const FrameView& view, ParticlesStat
     PILEUS_TRY(allocate(arrays::particle_depths(count, places.count), depths));
     SunTiles tiles;
     PILEUS_TRY(make_sun_tiles(context, state.tree, casts_of(state), view.lighting.to_sun, tiles));
-    const double most = state.settings.most_depth;
+    const double most = state.settings.shadows.most_depth;
     for (int n = 0; n < places.count; ++n)
         PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
                               depths.data() + std::size_t(n) * count, n, places.count));
@@ -71,7 +71,7 @@ void light_by_nodes(const Context& context, const NodeGrid& grid, const float* l
 LightPlaces light_places(const ParticlesSettings& settings, const std::array<float, 3>& to_light) {
     LightPlaces places;
     places.count = light_samples(settings);
-    const float bias = float(settings.light_bias);
+    const float bias = float(settings.shadows.bias);
     const LightAxes<float> axes = light_axes(Vec<float>{to_light[0], to_light[1], to_light[2]});
     for (int n = 0; n < places.count; ++n) {
         const Vec<float> arm = along_axes(axes, kCorners[n]);
@@ -119,20 +119,20 @@ void choose_orders(const FrameView& view, ParticlesState& state) {
     state.order[0] = ParticleOrder{};
     if (s.scattering == ParticleScattering::kEffective)
         state.order[0].extinction =
-            float(1 - albedo * forward_share(optics.phase, 0.5 * s.cone_deg));
+            float(1 - albedo * forward_share(optics.phase, 0.5 * s.octaves.cone_deg));
     if (s.scattering == ParticleScattering::kSimilarity)
         state.order[0].extinction = float(1 - albedo * double(mean_cosine));
     // A denser shadow is one of more extinction on the way of the light alone.
     // The first order of the sun loses what turns out of the peak of the phase function.
     if (by_ordinates(state)) state.order[0].extinction = state.ordinates.optics[0][0].rest;
-    state.order[0].extinction *= float(s.shadow_density);
-    state.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves : 1;
+    state.order[0].extinction *= float(s.shadows.density);
+    state.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves.count : 1;
     state.orders = view.lighting.sunlit ? state.light_orders : 0;
     for (std::size_t n = 1; n < std::size_t(state.light_orders); ++n) {
         const ParticleOrder& before = state.order[n - 1];
         const float g = n == 1 ? mean_cosine : before.g;
-        state.order[n] = {before.extinction * float(s.octave_extinction),
-                          before.share * float(s.octave_share), g * float(s.octave_anisotropy)};
+        state.order[n] = {before.extinction * float(s.octaves.extinction),
+                          before.share * float(s.octaves.share), g * float(s.octaves.anisotropy)};
     }
 }
 
@@ -144,7 +144,7 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
     state.lit = false;
     choose_orders(view, state);
     if (state.tree.balls.empty()) return Status::ok();
-    const double share = state.settings.occluders;
+    const double share = state.settings.shadows.occluders;
     if (share < 1 && state.occluders.empty())
         PILEUS_TRY(choose_occluders(state.tree, share, state.occluders));
     if (state.settings.light != ParticleLight::kExact) {
@@ -196,7 +196,7 @@ ParticleMarchParams march_params(const FrameView& view, const ParticlesState& st
     k.phase = optics.phase;
     k.cut = float(s.stop_below);
     k.exact = s.light == ParticleLight::kExact ? 1 : 0;
-    k.most = s.most_depth > 0 ? float(s.most_depth) : 3e38f;
+    k.most = s.shadows.most_depth > 0 ? float(s.shadows.most_depth) : 3e38f;
     for (int a = 0; a < 3; ++a) {
         k.sun_travel[a] = -view.lighting.to_sun[std::size_t(a)];
         k.albedo[a] = has_own_light(view, state) ? 1 : optics.albedo[a];

@@ -2,7 +2,6 @@
 // See particles_method.h.
 #include "src/methods/particles/particles_method.h"
 
-#include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
@@ -105,10 +104,9 @@ Status ParticlesMethod::accumulate(const Context&, const FrameView&, std::uint64
 Status ParticlesMethod::render(const Context& context, const FrameView& view, const RenderAsk&,
                                Planes*& out) {
     const Scene& scene = view.scene;
-    const Medium& medium = view.world.medium;
     Planes& planes = state_.planes;
     out = &planes;
-    state_.camera = make_camera(scene.camera, orbit_at(scene, view.frame), medium.low_m);
+    state_.camera = view.camera;
     PILEUS_TRY(light_particles(context, view, state_));
     PILEUS_TRY(allocate_planes(state_.camera.width, state_.camera.height, 3, view.lighting.opaque(),
                                view.wants_depth(), planes));
@@ -117,11 +115,7 @@ Status ParticlesMethod::render(const Context& context, const FrameView& view, co
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
     PILEUS_TRY(fill_background(context, view, state_));
     PILEUS_TRY(show_particles(context, view, state_));
-    if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, view, state_));
-    PILEUS_TRY(light_ground_by_lamps(context, view, state_));
-    PILEUS_TRY(
-        show_air(context, scene, medium, view.lighting, state_.camera, view.environment, planes));
-    return state_.hosted ? Status::ok() : follow_particles(context, view, state_);
+    return light_ground_by_lamps(context, view, state_);
 }
 
 FrameWork ParticlesMethod::full_work() const {

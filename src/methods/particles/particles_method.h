@@ -11,6 +11,7 @@ namespace pileus {
 class ParticlesMethod final : public Method {
 public:
     explicit ParticlesMethod(const MethodInputs& inputs);
+    ParticlesState& state() { return state_; }
     const ParticlesState& state() const { return state_; }
 
     Status plan(const Context& context, const FrameView& view, Plan& plan) override;
@@ -33,7 +34,7 @@ private:
 };
 
 /// The method outlives it.
-std::unique_ptr<MethodReport> particles_report(const ParticlesMethod& method);
+std::unique_ptr<MethodReport> particles_report(ParticlesMethod& method);
 
 Status check_particles(const Scene& scene, const Budget& budget);
 MethodRow particles_row();

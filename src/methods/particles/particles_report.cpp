@@ -159,7 +159,7 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
         add(t, arrays::particle_depths(particles, light_samples(state.settings)));
     }
     if (state.settings.light != ParticleLight::kExact || !view.lighting.lamps.empty()) {
-        if (state.settings.occluders < 1) add(t, arrays::particle_occluders(particles));
+        if (state.settings.shadows.occluders < 1) add(t, arrays::particle_occluders(particles));
         add(t, arrays::tile_balls(particles));
         add(t, arrays::tile_places(particles));
         t.add("tiles", Stage::kShadow, Stage::kShadow,
@@ -226,7 +226,7 @@ std::string digest_of(const ParticleTree& tree) {
 
 class ParticlesReport final : public MethodReport {
 public:
-    explicit ParticlesReport(const ParticlesMethod& of) : of_(of) {}
+    explicit ParticlesReport(ParticlesMethod& of) : of_(of) {}
 
     void explain(const Context& context, const FrameView& view, Plan& plan) const override {
         note_plan(view, of_.state(), plan);
@@ -248,6 +248,12 @@ public:
                    {"particles", digest_of(of_.state().tree)}};
     }
 
+    Status add_layers(const Context& context, const FrameView& view) override {
+        if (view.scene.output.layer_occlusion)
+            PILEUS_TRY(show_occlusion(context, view, of_.state()));
+        return follow_particles(context, view, of_.state());
+    }
+
     FinishedParts finished() const override {
         FinishedParts parts;
         parts.colours = true;
@@ -260,12 +266,12 @@ public:
     }
 
 private:
-    const ParticlesMethod& of_;
+    ParticlesMethod& of_;
 };
 
 }  // namespace
 
-std::unique_ptr<MethodReport> particles_report(const ParticlesMethod& method) {
+std::unique_ptr<MethodReport> particles_report(ParticlesMethod& method) {
     return std::make_unique<ParticlesReport>(method);
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// Places of a tile, where the balls' size allows it.
 constexpr double kPlacesPerTile = 2048;
 /// Side of a tile in mean radii at least.
-constexpr double kLeastSide = 3;
+constexpr double kMinSide = 3;
 constexpr int kMaxAcross = 1024;
 /// Times that a tile is halved at most, and what is not halved any more: so few places, or a side
 /// of so many mean radii.
@@ -343,7 +343,7 @@ Status make_sun_tiles(const Context& context, const ParticleTree& tree,
     for (const ParticleBall& ball : tree.balls.span()) radii += 1 / double(ball.per_radius);
     const double places = double(tree.balls.size());
     const double area = double(size[0]) * double(size[1]) * kPlacesPerTile / places;
-    double side = std::max(__builtin_sqrt(area), kLeastSide * radii / places);
+    double side = std::max(__builtin_sqrt(area), kMinSide * radii / places);
     const std::uint64_t most = arrays::tile_balls(count).count;
     for (bool fits = false; !fits; side *= 2) {
         lay_tiles(size, side, t);

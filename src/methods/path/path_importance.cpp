@@ -21,7 +21,7 @@ constexpr float kSunShare = 0.25f;
 /// Copies of a particle that is worth its pixel's light.
 constexpr float kWindows = 1;
 /// Pixels are reckoned to have this share of the medium's mean light at least.
-constexpr double kLeastLevel = 1e-3;
+constexpr double kMinLevel = 1e-3;
 
 double mean_of(const Double3& c) { return (c.x + c.y + c.z) / 3; }
 
@@ -214,7 +214,7 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
         k.sun_share = kSunShare;
     }
     k.lobes = out.lobes.data();
-    k.level = float(std::max(kLeastLevel * (mean_light + sky), 1e-30));
+    k.level = float(std::max(kMinLevel * (mean_light + sky), 1e-30));
     k.windows = kWindows;
     out.to_sun = light.to_sun;
     out.shine = shine;

@@ -49,7 +49,7 @@ Status PathMethod::reserve(const FrameView&, LateRows&) { return Status::ok(); }
 Status PathMethod::set_view(const Context&, const FrameView& view, const ViewChange& change) {
     const Scene& scene = view.scene;
     const int width = state_.camera.width, height = state_.camera.height;
-    state_.camera = make_camera(scene.camera, orbit_at(scene, view.frame), view.world.medium.low_m);
+    state_.camera = view.camera;
     // Frame f of an animation has the noise of the seed f further on.
     state_.seed = std::uint64_t(scene.seed) + std::uint64_t(view.frame);
     state_.begun = false;
@@ -121,7 +121,7 @@ void PathMethod::release(Phase phase) {
 }
 
 MethodRow path_row() {
-    return {"path", WorldUse::kGrid, check_path, make, true, true, Division::kPaths};
+    return {"path", WorldUse::kGrid, check_path, make, true, true, Division::kPaths, true};
 }
 
 }  // namespace pileus

@@ -55,7 +55,7 @@ Status plan_deposit(const FrameView& view, PhotonGridState& state) {
     DepositPlan& deposit = state.lights.deposit;
     const double largest = largest_deposit(view.world.medium, deposit);
     const double all = photons_of(state) * double(state.ring.generations);
-    state.most_photons = all > kLeastMostPhotons ? all : kLeastMostPhotons;
+    state.most_photons = all > kMinMaxPhotons ? all : kMinMaxPhotons;
     deposit.places = fixed_point_places(most_deposits(state), largest);
     while (deposit.places < 0 && state.most_photons > all) {
         state.most_photons = state.most_photons > 2 * all ? state.most_photons / 2 : all;
@@ -139,14 +139,14 @@ CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
     return cells;
 }
 
-GridLightInput grid_light_input(const CameraParams& camera, const Context& context,
-                                const FrameView& view, const PhotonGridState& state) {
+GridLightInput grid_light_input(const Context& context, const FrameView& view,
+                                const PhotonGridState& state) {
     GridLightInput in;
     in.medium = &view.world.medium;
     in.lighting = &state.lights.lighting;
     in.photons = &state.ring.photons;
     if (sums_ring(state) && state.ring.sum.sum.generations > 0) in.whole = &state.ring.sum.sum;
-    in.camera = camera;
+    in.camera = view.camera;
     in.deposit = state.lights.deposit;
     in.batches = photon_batches(state);
     in.threads = context.threads;

@@ -62,18 +62,15 @@ bool PhotonGridMethod::is_turned(const FrameView& view) const {
     return turned;
 }
 
-Status PhotonGridMethod::compose(const Context& context, const FrameView& view,
-                                 const CameraParams& camera, Planes& planes) {
-    return compose_photon_grid(camera, context, view, trace_input(context, view), state_, planes);
+Status PhotonGridMethod::compose(const Context& context, const FrameView& view, Planes& planes) {
+    return compose_photon_grid(context, view, trace_input(context, view), state_, planes);
 }
 
 Status PhotonGridMethod::error(const Context& context, const FrameView& view,
                                double& mean_relative) {
-    const CameraParams camera =
-        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), view.world.medium.low_m);
     Planes planes;
-    PILEUS_TRY(compose(context, view, camera, planes));
-    mean_relative = batch_error_sum(planes, camera.width, camera.height).mean_relative();
+    PILEUS_TRY(compose(context, view, planes));
+    mean_relative = batch_error_sum(planes, view.camera.width, view.camera.height).mean_relative();
     return Status::ok();
 }
 

@@ -26,8 +26,7 @@ protected:
     Status measure(const Context& context, const FrameView& view, Plan& plan) override {
         return measure_photon_grid(context, view, state_, plan);
     }
-    Status compose(const Context& context, const FrameView& view, const CameraParams& camera,
-                   Planes& planes) override;
+    Status compose(const Context& context, const FrameView& view, Planes& planes) override;
     bool is_turned(const FrameView& view) const override;
 
 private:

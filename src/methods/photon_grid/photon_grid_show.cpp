@@ -4,7 +4,6 @@
 // docs/photon-grid.md; docs/formats.md, "Pictures out".
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/lit_march.h"
-#include "src/picture/air_view.h"
 
 namespace pileus {
 
@@ -104,25 +103,22 @@ Status display_grid(const Context& context, const FrameView& view, PhotonGridSta
     return add_lit_lamps(context, view, state, in, planes);
 }
 
-Status compose_photon_grid(const CameraParams& camera, const Context& context,
-                           const FrameView& view, const TraceInput& launches,
-                           PhotonGridState& state, Planes& planes) {
+Status compose_photon_grid(const Context& context, const FrameView& view,
+                           const TraceInput& launches, PhotonGridState& state, Planes& planes) {
     {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(sum_ring(launches, state));
     }
-    const GridLightInput in = grid_light_input(camera, context, view, state);
+    const GridLightInput in = grid_light_input(context, view, state);
     {
         const StageClock clock(context, "background");
-        PILEUS_TRY(allocate_planes(camera.width, camera.height, 3 * (1 + in.batches),
+        PILEUS_TRY(allocate_planes(view.camera.width, view.camera.height, 3 * (1 + in.batches),
                                    state.lights.lighting.opaque(), view.wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     PILEUS_TRY(display_grid(context, view, state, in, planes));
     cut_below_zero(context, planes);
-    PILEUS_TRY(add_grid_layers(context, view, state, in, planes));
-    return show_air(context, view.scene, view.world.medium, state.lights.lighting, camera,
-                    view.environment, planes);
+    return add_grid_layers(context, view, state, in, planes);
 }
 
 }  // namespace pileus

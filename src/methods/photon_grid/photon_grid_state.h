@@ -9,7 +9,7 @@
 namespace pileus {
 
 /// Photons that the sums hold where they have room, so that a budget or a session may go on.
-constexpr double kLeastMostPhotons = 0x1p26;
+constexpr double kMinMaxPhotons = 0x1p26;
 
 /// Made by `prepare`, lit generation by generation, read by `render`.
 struct PhotonGridState : PhotonState {
@@ -72,8 +72,8 @@ Status measure_grid_memory(const Context& context, const FrameView& view,
                            const PhotonGridState& state, std::uint64_t photons, Plan& plan);
 
 /// What the light of the cells towards a camera is made from.
-GridLightInput grid_light_input(const CameraParams& camera, const Context& context,
-                                const FrameView& view, const PhotonGridState& state);
+GridLightInput grid_light_input(const Context& context, const FrameView& view,
+                                const PhotonGridState& state);
 
 /// Shows light of these inputs before a background that is there.
 Status display_grid(const Context& context, const FrameView& view, PhotonGridState& state,
@@ -83,8 +83,7 @@ Status add_grid_layers(const Context& context, const FrameView& view, PhotonGrid
                        const GridLightInput& in, Planes& planes);
 
 /// The picture as it is lit now, as planes; `in` of launches.
-Status compose_photon_grid(const CameraParams& camera, const Context& context,
-                           const FrameView& view, const TraceInput& in, PhotonGridState& state,
-                           Planes& planes);
+Status compose_photon_grid(const Context& context, const FrameView& view, const TraceInput& in,
+                           PhotonGridState& state, Planes& planes);
 
 }  // namespace pileus

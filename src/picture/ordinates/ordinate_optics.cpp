@@ -14,7 +14,7 @@
 namespace pileus {
 namespace {
 
-constexpr float kLeastRest = 1e-6f;
+constexpr float kMinRest = 1e-6f;
 
 constexpr int kRings = 64, kAround = 64;
 
@@ -66,7 +66,7 @@ OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f) {
     const double albedo = double(optics.albedo[std::size_t(channel)]);
     OrdinateOptics out;
     out.rest = float(1 - albedo * f);
-    out.albedo = out.rest > kLeastRest ? float(albedo * (1 - f) / double(out.rest)) : 1.0f;
+    out.albedo = out.rest > kMinRest ? float(albedo * (1 - f) / double(out.rest)) : 1.0f;
     double moment[4] = {1, 0, 0, 0};
     for (int l = 1; l < 4 && 1 - f > 1e-6; ++l)
         moment[l] = (double(phase_moment(optics.phase, l)) - f) / (1 - f);

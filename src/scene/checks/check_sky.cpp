@@ -104,9 +104,9 @@ private:
 
     void tile_size(const char* key, bool used, const SkyNoise& noise) {
         const double tile = noise.tile_m * sky_.scale;
-        if (used && tile > 0 && !(tile >= kLeastPositive))
+        if (used && tile > 0 && !(tile >= kMinPositive))
             fault(key, "too short with sky.scale, " + number_text(tile) + " m, allowed: at least " +
-                           number_text(kLeastPositive) + " m");
+                           number_text(kMinPositive) + " m");
     }
 
     void noise_size(const char* key, const SkyNoise& noise) {

@@ -35,7 +35,7 @@ constexpr Allowed ranged(Value Of::*member) {
     return {range_of(member)};
 }
 /// Lengths and factors that must not be 0.
-constexpr Allowed positive(double high) { return from_to(kLeastPositive, high); }
+constexpr Allowed positive(double high) { return from_to(kMinPositive, high); }
 constexpr Allowed one_of(const char* choices, const char* later = nullptr) {
     return {{}, choices, later};
 }

@@ -10,6 +10,10 @@ namespace {
 template <auto... Members>
 constexpr KeyField particles = field<&Scene::particles, Members...>;
 using Settings = ParticlesSettings;
+template <auto Member>
+constexpr KeyField octaves = particles<&Settings::octaves, Member>;
+template <auto Member>
+constexpr KeyField shadows = particles<&Settings::shadows, Member>;
 
 constexpr KeyRow kRows[] = {
     {"particles.scattering", particles<&Settings::scattering>,
@@ -18,15 +22,15 @@ constexpr KeyRow kRows[] = {
      "same with less extinction towards the sun, for what the phase function keeps within a cone, "
      "or by its mean cosine; octaves of it; or all light, scattered any number of times, by "
      "discrete ordinates on the grid's nodes"},
-    {"particles.octaves", particles<&Settings::octaves>, from_to(1, 8), "",
+    {"particles.octaves", octaves<&ParticleOrders::count>, from_to(1, 8), "",
      "how many, the first included"},
-    {"particles.octave_extinction", particles<&Settings::octave_extinction>, from_to(0, 1), "",
+    {"particles.octave_extinction", octaves<&ParticleOrders::extinction>, from_to(0, 1), "",
      "factor on the extinction from one to the next"},
-    {"particles.octave_share", particles<&Settings::octave_share>, from_to(0, 1), "",
+    {"particles.octave_share", octaves<&ParticleOrders::share>, from_to(0, 1), "",
      "factor on the light from one to the next"},
-    {"particles.octave_anisotropy", particles<&Settings::octave_anisotropy>, from_to(0, 1), "",
+    {"particles.octave_anisotropy", octaves<&ParticleOrders::anisotropy>, from_to(0, 1), "",
      "factor on the mean cosine from one to the next"},
-    {"particles.cone_deg", particles<&Settings::cone_deg>, positive(360), "deg",
+    {"particles.cone_deg", octaves<&ParticleOrders::cone_deg>, positive(360), "deg",
      "of scattering = `effective`: angle at the cone's apex"},
     {"particles.sky_light", particles<&Settings::sky_ambient>, one_of("none|ambient"), "",
      "light of sky and ground in the particles: none, or from 24 directions on coarse nodes"},
@@ -38,17 +42,17 @@ constexpr KeyRow kRows[] = {
      "optical depth towards the sun: at each particle's centre; at four places of each, linear in "
      "between; or by a walk from each bin of each ray. Left out with billboards, `occluders` or "
      "`light_bias`: linear"},
-    {"particles.most_depth", particles<&Settings::most_depth>, from_to(0, 1e9), "",
+    {"particles.most_depth", shadows<&ParticleShadows::most_depth>, from_to(0, 1e9), "",
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
-    {"particles.shadow_density", particles<&Settings::shadow_density>, from_to(0, 1000), "",
+    {"particles.shadow_density", shadows<&ParticleShadows::density>, from_to(0, 1000), "",
      "factor on the extinction towards lights: above 1 darker shadows, 0 none"},
-    {"particles.occluders", particles<&Settings::occluders>, positive(1), "",
+    {"particles.occluders", shadows<&ParticleShadows::occluders>, positive(1), "",
      "share of the particles that cast shadows on others towards the sun and directional lights, "
      "denser in return, chosen by their own numbers; all are lit and shown"},
-    {"particles.light_bias", particles<&Settings::light_bias>, from_to(-2, 2), "",
+    {"particles.light_bias", shadows<&ParticleShadows::bias>, from_to(-2, 2), "",
      "moves the places that are lit towards the sun and directional lights, in radii: less of a "
      "particle's own shade"},
-    {"particles.solid_shadow", particles<&Settings::solid_shadow>, from_to(0, 1), "",
+    {"particles.solid_shadow", shadows<&ParticleShadows::solid>, from_to(0, 1), "",
      "share of the light that is left in the shadow of solids"},
     {"particles.display", particles<&Settings::billboards>, one_of("march|billboards"), "",
      "exact depths in bins along each ray; or one colour a particle, sorted by distance: faster, "

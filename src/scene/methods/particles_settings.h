@@ -9,30 +9,39 @@ enum class ParticleLight { kCentre, kLinear, kExact };
 enum class ParticleScattering { kAuto, kSingle, kEffective, kSimilarity, kOctaves, kByNodes };
 
 /// Method particles; src/scene/keys/particles.cpp says what each means.
+/// Light scattered more than once, as each way of it reads.
+struct ParticleOrders {
+    int count = 8;  ///< of octaves, 1..8
+    double extinction = 0.45, share = 0.65, anisotropy = 0.75;
+    double cone_deg = 40;  ///< at its apex
+};
+
+struct ParticleShadows {
+    double density = 1;     ///< factor on extinction towards lights; >= 0
+    double occluders = 1;   ///< share of particles that cast shadows, denser in return; (0, 1]
+    double bias = 0;        ///< places that are lit, moved to a parallel light, radii
+    double solid = 0;       ///< share of light left behind solids; [0, 1]
+    double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
+};
+
 struct ParticlesSettings {
     /// As written; scattering_in_use() is what counts.
     ParticleScattering scattering = ParticleScattering::kAuto;
-    int octaves = 8;  ///< 1..8
-    double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
-    double cone_deg = 40;                         ///< at its apex
+    ParticleOrders octaves;
     bool sky_ambient = true;                      ///< sky_light = "ambient"
     int bins = 256;                               ///< along a ray, 1..4096
     int leaf = 16;                                ///< most particles in one, 1..1024
     ParticleLight light = ParticleLight::kExact;  ///< as written; light_in_use() is what counts
-    double shadow_density = 1;                    ///< factor on extinction towards lights; >= 0
-    double occluders = 1;      ///< share of particles that cast shadows, denser in return; (0, 1]
-    double light_bias = 0;     ///< places that are lit, moved to a parallel light, radii
-    double solid_shadow = 0;   ///< share of light left behind solids; [0, 1]
+    ParticleShadows shadows;
     bool billboards = false;   ///< display = "billboards"; else marched
     double display_scale = 1;  ///< of billboards: on radii, extinction times area kept; > 0
     double falloff = 2.5;      ///< of billboards: the power of 1 - distance^2; 0..16
-    double most_depth = 0;     ///< towards the sun, where the walk ends; 0: none
     double stop_below = 1e-4;
 };
 
 /// Billboards have no bins to walk from, and these two keys shape light at places in particles.
 inline bool lights_places(const ParticlesSettings& s) {
-    return s.billboards || s.occluders < 1 || s.light_bias != 0;
+    return s.billboards || s.shadows.occluders < 1 || s.shadows.bias != 0;
 }
 inline ParticleScattering scattering_in_use(const ParticlesSettings& s) {
     if (s.scattering != ParticleScattering::kAuto) return s.scattering;

@@ -24,7 +24,7 @@ Status check_bands(const Scene& scene, const RenderOptions& options) {
     };
     if (const char* why = whole_for_crop(scene)) return refuse(why, "without");
     if (scene.crop[2] > 0) return refuse("together with camera.crop", "one of both");
-    if (scene.animation.present && scene.animation.frames > 1)
+    if (scene.animation.is_film())
         return refuse("a film", "--frames A of it, rendered without, or a still scene");
     if (options.verify > 0 || !options.show.empty())
         return refuse("together with --verify or --show", "a picture's light");

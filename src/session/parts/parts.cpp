@@ -33,8 +33,7 @@ Status check_work(const Scene& scene, const RenderOptions& options) {
         return refuse("together with --state", "one of both: a part is its own state");
     if (options.verify > 0 || !options.show.empty())
         return refuse("together with --verify or --show", "a picture's light");
-    if (scene.animation.present && scene.animation.frames > 1)
-        return refuse("a film is divided by frames", "--frames A-B");
+    if (scene.animation.is_film()) return refuse("a film is divided by frames", "--frames A-B");
     const UpsampleSettings& thin = scene.raymarch.thin;
     if (method_column(scene) == MethodColumn::kRaymarch && thin.every() > 1)
         return refuse("pixels of raymarch.scale and temporal look at rows of other parts",

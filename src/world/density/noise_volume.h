@@ -10,7 +10,7 @@
 
 namespace pileus {
 
-constexpr int kLeastNoiseSize = 16, kMaxNoiseSize = 512;
+constexpr int kMinNoiseSize = 16, kMaxNoiseSize = 512;
 
 /// Texels over the finest lattice cell that an octave may have.
 constexpr int kTexelsPerCell = 4;

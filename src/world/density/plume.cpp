@@ -18,7 +18,7 @@ namespace {
 constexpr double kFoot = 0.07, kSpread = 0.19;  ///< half width at the foot, and its growth
 constexpr double kWander = 0.07;                ///< of the axis
 constexpr int kPuffs = 240;
-constexpr double kPuffOff = 0.55, kLeastBall = 0.2;  ///< from the axis, and size, in half widths
+constexpr double kPuffOff = 0.55, kMinBall = 0.2;  ///< from the axis, and size, in half widths
 /// Numbers of puffs lie beyond those of particles.
 constexpr std::uint64_t kPuffNumbers = 0xf0000000u;
 constexpr double kMaxRadius = 0.06;  ///< of a particle
@@ -54,7 +54,7 @@ void Plume::make(std::uint64_t i, float* place, float* velocity, float& radius,
     const double wide = half_width(height), thin = kFoot * width / wide;
     const auto axis = recipe_turn(kTurnsUp * height), where = recipe_turn(draw(p, 0));
     const double off = double(sqrt_(float(draw(p, 1)))) * kPuffOff * wide;
-    const double ball = wide * (kLeastBall + (1 - kPuffOff - kLeastBall) * draw(p, 2));
+    const double ball = wide * (kMinBall + (1 - kPuffOff - kMinBall) * draw(p, 2));
     // Uniform in the ball.
     const auto around = recipe_turn(draw(i, 1));
     const double up = 2 * draw(i, 2) - 1, level = double(sqrt_(float(1 - up * up)));

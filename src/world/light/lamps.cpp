@@ -16,7 +16,7 @@ namespace pileus {
 namespace {
 
 /// A light without a radius has this share of the shortest edge of a cell.
-constexpr double kLeastRadius = 1e-3;
+constexpr double kMinRadius = 1e-3;
 /// Slope of a cone's hard edge: full light a float's step inside of it.
 constexpr double kHardEdge = 1e7;
 
@@ -54,11 +54,11 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
         const double edge = double(medium.grid.cell_m[a]);
         shortest = edge < shortest ? edge : shortest;
     }
-    const double least = kLeastRadius * shortest;
+    const double least = kMinRadius * shortest;
     const double radius = light.radius_m > least ? light.radius_m : least;
     lamp.least_square = float(radius * radius);
-    constexpr auto kLeastSquare = float(kLeastPositive * kLeastPositive);
-    if (!(lamp.least_square > kLeastSquare)) lamp.least_square = kLeastSquare;
+    constexpr auto kMinSquare = float(kMinPositive * kMinPositive);
+    if (!(lamp.least_square > kMinSquare)) lamp.least_square = kMinSquare;
     if (!parallel && light.radius_m > 0 && light.shadow_samples > 1) {
         lamp.radius = float(radius);
         lamp.places = light.shadow_samples;

@@ -25,7 +25,7 @@ Status take_plane(const std::string& name, const Image& image, const Channel& fr
                                      ": no radiance, " + number_text(double(v)) +
                                      ", allowed: 0 to 1e30 after sky.map_scale");
         if (i / width < std::size_t(rows))
-            to.at(i) = scaled < kLeastSkyRadiance ? 0.0f : float(scaled);
+            to.at(i) = scaled < kMinSkyRadiance ? 0.0f : float(scaled);
     }
     return Status::ok();
 }

@@ -13,8 +13,8 @@
 namespace pileus {
 
 constexpr std::uint64_t kMaxSkyTexels = std::uint64_t{1} << 26;
-constexpr double kMaxSkyRadiance = 1e30;     ///< what is larger is refused
-constexpr double kLeastSkyRadiance = 1e-30;  ///< what is smaller counts as 0
+constexpr double kMaxSkyRadiance = 1e30;   ///< what is larger is refused
+constexpr double kMinSkyRadiance = 1e-30;  ///< what is smaller counts as 0
 
 /// `view` points into the buffers and stays valid while they live, also when the whole is moved.
 struct SkyMap {

@@ -192,7 +192,7 @@ Status hold_extinction(const std::string& where, Medium& medium) {
                                  number_text(kMaxSigma));
     double square = 0;
     for (const double e : medium.extent_m) square += e * e;
-    if (per_m < kLeastSigma || per_m * __builtin_sqrt(square) < kLeastSigma) medium.sigma = 0;
+    if (per_m < kMinSigma || per_m * __builtin_sqrt(square) < kMinSigma) medium.sigma = 0;
     return Status::ok();
 }
 

@@ -15,7 +15,7 @@ constexpr PhaseNumber kG{"medium.N.phase.g", from_to(-1, 1), "",
 constexpr KeyRow kKeys[] = {phase_key<kG>};
 
 // Where Draine's function, which is this one at alpha = 1, is drawn to 1e-6 (docs/phase.md).
-constexpr float kLeastDrawn = 0.2f, kMaxDrawn = 0.99f;
+constexpr float kMinDrawn = 0.2f, kMaxDrawn = 0.99f;
 
 /// Times a constant. `half` is the sine of half the angle to the peak.
 double density(double size, double half) {
@@ -50,7 +50,7 @@ Status make(const std::string&, const PhaseSettings& settings, PhaseStore& store
     // All light straight on or straight back is a case of Henyey-Greenstein's alone.
     if (g <= -1 || g >= 1) {
         params = {kPhaseHg, g, 0, 1};
-    } else if (g >= kLeastDrawn && g <= kMaxDrawn) {
+    } else if (g >= kMinDrawn && g <= kMaxDrawn) {
         params = {kPhaseHgDraine, 0, g, 0, 1, nullptr};
     } else {
         PhaseNodes nodes;

@@ -10,7 +10,7 @@ namespace pileus {
 namespace {
 
 constexpr double kMaxPeak = 1e15;
-constexpr float kLeastWidth = 1e-37f;
+constexpr float kMinWidth = 1e-37f;
 
 std::int32_t slots_of(std::size_t cells) {
     std::int32_t slots = 64;
@@ -50,7 +50,7 @@ void set_cells(const PhaseNodes& nodes, Arrays& a, PhaseTable& table) {
         const bool front = a.turn[i] < 1.0f;
         a.base[i] = float(front ? first.minus : last.plus);
         const float width = float(front ? last.minus - first.minus : first.plus - last.plus);
-        a.width[i] = width > kLeastWidth ? width : kLeastWidth;
+        a.width[i] = width > kMinWidth ? width : kMinWidth;
         if (front) table.forward = std::int32_t(i) + 1;
     }
 }

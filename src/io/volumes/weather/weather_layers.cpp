@@ -14,13 +14,12 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kBlockValues = std::uint64_t{1} << 19;
-constexpr double kUndershoot = -1e-6;    // kg/kg; below it water is a fault
-constexpr double kMaxWater = 0.5;        // kg/kg or kg/m3
-constexpr double kMaxShownValue = 1e30;  // as the values of a transfer function
-constexpr double kLeastFraction = 0.1;   // clouds in less are as dense as in this
-constexpr double kNoFraction = 0.01;     // below it the fraction knows nothing of the water
-constexpr double kLeastExtinction =
-    1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
+constexpr double kUndershoot = -1e-6;     // kg/kg; below it water is a fault
+constexpr double kMaxWater = 0.5;         // kg/kg or kg/m3
+constexpr double kMaxShownValue = 1e30;   // as the values of a transfer function
+constexpr double kMinFraction = 0.1;      // clouds in less are as dense as in this
+constexpr double kNoFraction = 0.01;      // below it the fraction knows nothing of the water
+constexpr double kMinExtinction = 1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
 constexpr double kLiquidRadius = 10e-6, kIceRadius = 30e-6;
 
 bool missing(double value) { return value != value; }
@@ -180,11 +179,11 @@ private:
                         "level " + level_text(k) + ": " + number_text(f) + ", allowed: 0 to 1");
                 // A fraction too small for the water in it is not of that water: it counts as the
                 // mean, or is ten times as dense at most.
-                const double share = f < kNoFraction      ? 1
-                                     : f < kLeastFraction ? kLeastFraction
-                                     : f > 1              ? 1
-                                                          : f;
-                if (f < kLeastFraction) ++counts_.capped;
+                const double share = f < kNoFraction    ? 1
+                                     : f < kMinFraction ? kMinFraction
+                                     : f > 1            ? 1
+                                                        : f;
+                if (f < kMinFraction) ++counts_.capped;
                 liquid /= share;
                 ice /= share;
             }
@@ -199,7 +198,7 @@ private:
                 PILEUS_TRY(radius(Role::kIceRadius, w.sizes.ice_radius_um, kIceRadius, c, k, size));
                 extinction += radius_extinction(ice, kIceDensity, size);
             }
-            if (extinction < kLeastExtinction) liquid = ice = extinction = 0;
+            if (extinction < kMinExtinction) liquid = ice = extinction = 0;
             layers_.liquid[c * n_ + k] = liquid;
             layers_.ice[c * n_ + k] = ice;
             layers_.extinction[c * n_ + k] = extinction;
