@@ -60,6 +60,18 @@ PILEUS_FN void sun_through(const BackgroundParams& k, T tau, T (&out)[3]) {
         out[c] = c > 0 && k.sun_rest[c] == k.sun_rest[0] ? out[0] : exp_(T{} - tau * k.sun_rest[c]);
 }
 
+/// Whether the sun lights the ground, and the optical depth towards it, of the lanes of `wanted`.
+inline bool sun_on_ground(const BackgroundParams& k) {
+    return k.ground_sun[0] > 0.0f || k.ground_sun[1] > 0.0f || k.ground_sun[2] > 0.0f;
+}
+template <class T>
+PILEUS_FN T depth_on_ground(const BackgroundParams& k, const BackgroundBuffers& b, const Vec<T>& at,
+                            M_of<T> wanted) {
+    if (k.shadow.size[0] > 0) return shadow_on_ground(k, b, at);
+    const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    return optical_depth(k.medium, Ray<T>{at, to_sun}, wanted);
+}
+
 /// What W pixels show behind the media, and how far it is; infinity for the sky.
 template <class T>
 struct Behind {
@@ -72,8 +84,6 @@ template <int W>
 PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const BackgroundBuffers& b,
                                         std::int32_t x, std::int32_t y, bool coloured) {
     using T = F<W>;
-    const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
-    const bool sunlit = k.ground_sun[0] > 0.0f || k.ground_sun[1] > 0.0f || k.ground_sun[2] > 0.0f;
     const I<W> column = iota<I<W>>() + x;
     const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
     Behind<T> out{};
@@ -84,12 +94,10 @@ PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const Backgro
         const T height = ray.origin.z - k.ground_z;
         ground = (ray.direction.z < 0.0f) & (height >= 0.0f) & (column < k.camera.width);
         out.depth = select(ground, height / max_(T{} - ray.direction.z, all<T>(1e-18f)), out.depth);
-        if (coloured && sunlit && any(ground)) {
-            const Ray<T> up{along(ray, select(ground, out.depth, T{})), to_sun};
-            const T tau = k.shadow.size[0] > 0 ? shadow_on_ground(k, b, up.origin)
-                                               : optical_depth(k.medium, up, ground);
-            sun_through(k, tau, sunlight);
-        }
+        if (coloured && sun_on_ground(k) && any(ground))
+            sun_through(k,
+                        depth_on_ground(k, b, along(ray, select(ground, out.depth, T{})), ground),
+                        sunlight);
     }
     if (!coloured) return out;
     T scattered[3] = {};

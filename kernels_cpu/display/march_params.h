@@ -139,6 +139,8 @@ struct BackgroundParams {
     float sun_rest[3];        ///< of the extinction, what keeps sunlight from surfaces
     NodeGrid map;             ///< of light scattered onto the ground; size 0: none
     float map_origin[2];      ///< m, box-local
+    /// 1 over the ground's, of a map that no solid darkens; of photons' maps and black grounds 0.
+    float map_per_albedo;
     float to_sun[3];
     NodeGrid shadow;         ///< of optical depths on the ground; size 0: rays look for themselves
     float shadow_origin[2];  ///< m, box-local

@@ -73,13 +73,42 @@ PILEUS_FN LitSurface<T> find_surface(const SolidRowsParams& k, const Ray<T>& ray
     return s;
 }
 
+/// What media change of light from all around but the sun, over pi: at their foot, or the ground
+/// within them, and below as much as they change of the ground's, `scattered`, above them nothing,
+/// and within them what lies between. From below comes the ground's light, in the media's shadow of
+/// the sun.
+template <class T>
+PILEUS_FN void changed_around(const SolidRowsParams& k, const BackgroundBuffers& b,
+                              const LitSurface<T>& s, const T (&scattered)[3], T (&out)[3]) {
+    const Vec<T>& at = s.place.at;
+    const float top = k.back.medium.extent[2], low = k.back.ground_z > 0 ? k.back.ground_z : 0.0f;
+    const T share = min_(max_((top - at.z) * (1.0f / (top - low)), T{}), all<T>(1.0f));
+    const T up = 0.5f + 0.5f * s.place.normal.z;
+    T through[3] = {};
+    if (sun_on_ground(k.back))
+        sun_through(
+            k.back,
+            depth_on_ground(k.back, b, Vec<T>{at.x, at.y, all<T>(k.back.ground_z)}, s.solid),
+            through);
+    for (int c = 0; c < 3; ++c) {
+        const T below = scattered[c] + k.back.ground_sun[c] * (through[c] - 1.0f);
+        out[c] = share * (up * scattered[c] * k.back.map_per_albedo + (1.0f - up) * below);
+    }
+}
+
 /// Radiance of what the rays meet, channel by channel.
 template <class T>
 PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& b,
                              const Ray<T>& ray, const LitSurface<T>& s, T (&out)[3]) {
-    T scattered[3] = {};
-    if (k.back.map.size[0] > 0 && any(s.ground))
+    T scattered[3] = {}, changed[3] = {};
+    const bool known = k.back.map.size[0] > 0;
+    if (known && any(s.ground))
         scattered_on_ground(k.back, b, along(ray, select(s.ground, s.depth, T{})), scattered);
+    if (known && k.back.map_per_albedo > 0.0f && any(s.solid)) {
+        T below[3];
+        scattered_on_ground(k.back, b, s.place.at, below);
+        changed_around(k, b, s, below, changed);
+    }
     Vec<T> sky{all<T>(k.back.sky[0]), all<T>(k.back.sky[1]), all<T>(k.back.sky[2])};
     if (k.back.sky_map.columns > 0) sky = map_radiance(k.back.sky_map, ray.direction);
     const T above[3] = {sky.x, sky.y, sky.z};
@@ -89,7 +118,8 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
         const T ground =
             k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight[c] + scattered[c];
         const T solid =
-            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + sun * s.sunlight[c]);
+            s.place.albedo[c] * (max_(around_light(k.around[c], s.place.normal) + changed[c], T{}) +
+                                 sun * s.sunlight[c]);
         out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
     }
 }

@@ -88,7 +88,8 @@ Status check_packable(const Scene& scene) {
     if (is_of_collectors(method_column(scene)) &&
         scene.collectors.display.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
-    if (scene.path.importance) return refuse(scene, "path.importance", "not packed", "false");
+    if (method_column(scene) == MethodColumn::kPath && scene.path.importance)
+        return refuse(scene, "path.importance", "not packed", "false");
     if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)
         return refuse(scene, "filter.kind", "not packed", "none, regression");
     return Status::ok();

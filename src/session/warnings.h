@@ -31,7 +31,7 @@ void find_warnings(const Scene& scene, const Image& image, Report& report, bool 
 bool shows_nothing(const Image& image);
 
 /// Adds a line where cells of scattered light, `cell_m` along their shortest edge, are so thick
-/// that it is far off.
+/// that it is far off, and where phase functions are narrower than what they hold.
 void warn_of_cells(const Medium& medium, double cell_m, Report& report);
 
 }  // namespace pileus

@@ -18,8 +18,9 @@ FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
 KNOWN = [
     ("collectors", {"periodic", "no-resolution", "thick"}, "a deck of 100 optical depths seen along its top"),
     ("collectors-billboards", {"inside"}, "boards that the camera is in"),
+    ("raymarch", {"solid", "periodic"}, "walls on the ground below a deck"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
-     for column in ("collectors", "photon-grid", "raymarch", "optical-depth")
+     for column in ("collectors", "photon-grid", "optical-depth")
 ] + [(column, {"thick", "no-resolution"}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")]
 
 

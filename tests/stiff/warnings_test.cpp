@@ -85,3 +85,22 @@ TEST_CASE("cells of scattered light that are too thick are told, with their dept
     REQUIRE(report.warnings.size() == 1);
     CHECK(report.warnings[0].find("cells of up to 27 optical depths") != std::string::npos);
 }
+
+TEST_CASE("phase functions narrower than what cells hold are told, in deep media") {
+    const auto warned = [](const char* method, const char* g, const char* extinction) {
+        const Picture out = render_sound(by_method(
+            method, {std::string("medium.0.phase={type=\"henyey-greenstein\", g=") + g + "}",
+                     std::string("medium.0.extinction_per_m=") + extinction}));
+        for (const std::string& line : out.report.warnings)
+            if (line.find("mean cosine 0.97") != std::string::npos) return true;
+        return false;
+    };
+    for (const char* method : {"collectors", "photon-grid"}) {
+        CAPTURE(method);
+        CHECK(warned(method, "0.97", "0.1"));
+        CHECK_FALSE(warned(method, "0.9", "0.1"));
+        CHECK_FALSE(warned(method, "0.97", "0.002"));
+    }
+    CHECK_FALSE(warned("path", "0.97", "0.1"));
+    CHECK_FALSE(warned("raymarch", "0.97", "0.1"));
+}

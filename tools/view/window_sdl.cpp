@@ -65,7 +65,7 @@ struct Sdl {
     Surface* (*window_surface)(void*);
     int (*update_surface)(void*);
     int (*poll)(RawEvent*);
-    int (*wait)(RawEvent*, int);
+    void (*delay)(std::uint32_t);
     std::uint64_t (*counter)();
     std::uint64_t (*frequency)();
 
@@ -82,7 +82,7 @@ struct Sdl {
         library.find("SDL_GetWindowSurface", window_surface);
         library.find("SDL_UpdateWindowSurface", update_surface);
         library.find("SDL_PollEvent", poll);
-        library.find("SDL_WaitEventTimeout", wait);
+        library.find("SDL_Delay", delay);
         library.find("SDL_GetPerformanceCounter", counter);
         library.find("SDL_GetPerformanceFrequency", frequency);
     }
@@ -151,11 +151,19 @@ public:
 
     bool poll(Event& event) override {
         RawEvent raw;
-        while (sdl_.poll(&raw) != 0)
+        while (take(raw))
             if (translate(raw, event)) return true;
         return false;
     }
-    void wait(double seconds) override { sdl_.wait(nullptr, int(1000 * seconds)); }
+    /// Not by SDL_WaitEventTimeout: on X11 what it wakes up by may reach a window that has just
+    /// been closed, which ends the program.
+    void wait(double seconds) override {
+        constexpr std::uint32_t kPieceMs = 4;
+        for (double left_ms = 1000 * seconds; !has_next_ && left_ms > 0; left_ms -= kPieceMs) {
+            has_next_ = sdl_.poll(&next_) != 0;
+            if (!has_next_) sdl_.delay(kPieceMs);
+        }
+    }
     double seconds() override { return double(sdl_.counter() - start_) / double(sdl_.frequency()); }
     void size(int& width, int& height) override { sdl_.window_size(window_, &width, &height); }
     void set_title(const std::string& title) override { sdl_.set_title(window_, title.c_str()); }
@@ -184,6 +192,14 @@ public:
     }
 
 private:
+    /// The next event, the one that ended a wait first.
+    bool take(RawEvent& raw) {
+        if (!has_next_) return sdl_.poll(&raw) != 0;
+        raw = next_;
+        has_next_ = false;
+        return true;
+    }
+
     Status fault(const char* what) {
         return Status::io(std::string("view: ") + what + ": " + sdl_.error());
     }
@@ -234,6 +250,8 @@ private:
     Sdl sdl_;
     void* window_ = nullptr;
     bool begun_ = false;
+    RawEvent next_;
+    bool has_next_ = false;
     std::uint64_t start_ = 0;
 };
 

@@ -133,7 +133,7 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(shadow, k, b);
     if (state.choice.settings.scattering.ordinates)
-        read_ground_light(state.light.ordinates.nodes, k, b);
+        read_ground_light(state.light.ordinates.nodes, light, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }

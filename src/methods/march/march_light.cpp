@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of sun, sky and solids' shadows on nodes, before a picture is marched.
-// in: a view whose camera is in state.picture -> out: MarchLight.
+// in: a view -> out: MarchLight.
 // docs/raymarch.md, "Light"
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light by discrete ordinates for a marched picture, and what of scenes it does not know.
-// in: a view whose camera is in state.picture -> out: MarchLight::ordinates.
+// in: a view -> out: MarchLight::ordinates.
 // docs/ordinates.md
 #include <algorithm>
 

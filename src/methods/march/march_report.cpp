@@ -146,7 +146,10 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (!state.choice.look) note_upsampling(scene, settings.thin, plan);
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(view.world.solids, view.environment.depth, plan);
-    note_surface_light(view.world.solids, plan);
+    note_surface_light(view.world.solids,
+                       settings.scattering.ordinates && !view.world.direct_sky &&
+                           view.lighting.has_bright_ground(),
+                       plan);
     note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");

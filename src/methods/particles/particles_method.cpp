@@ -18,7 +18,7 @@ Status fill_background(const Context& context, const FrameView& view, ParticlesS
     BackgroundParams k = background_params(make_medium_view(view.world.medium, state.majorants),
                                            state.camera, view.lighting);
     BackgroundBuffers b{nullptr, state.planes.background.data(), state.planes.opaque_depth.data()};
-    if (by_ordinates(state)) read_ground_light(state.ordinates, k, b);
+    if (by_ordinates(state)) read_ground_light(state.ordinates, view.lighting, k, b);
     return show_background(context, view.lighting, k, b);
 }
 

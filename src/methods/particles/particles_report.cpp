@@ -109,7 +109,10 @@ void note_plan(const FrameView& view, const ParticlesState& state, Plan& plan) {
     else
         plan.leave_out("emission of particles", "medium.emission is 0");
     note_solids(view.world.solids, view.environment.depth, plan);
-    note_surface_light(view.world.solids, plan);
+    note_surface_light(view.world.solids,
+                       state.settings.scattering == ParticleScattering::kByNodes &&
+                           view.lighting.has_bright_ground(),
+                       plan);
     note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");

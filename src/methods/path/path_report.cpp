@@ -169,6 +169,9 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     if (path_regresses(state.filter)) {
         add(t, arrays::guide_nodes(view.world.medium, view.world.solids.meshes),
             arrays::guide_planes(pixels));
+        if (const std::size_t lamps = view.lighting.lamps.size())
+            add(t, arrays::guide_lamps(view.world.medium, lamps),
+                arrays::picture_planes(4, pixels, Stage::kPaths));
         if (!output.layer_optical_depth) add(t, arrays::picture_planes(1, pixels, Stage::kPaths));
         add(t, arrays::film_means(9, pixels), arrays::filter_features(pixels));
         const auto& size = scene.camera.resolution;

@@ -3,6 +3,7 @@
 #include "src/methods/photon_grid/photon_grid_method.h"
 
 #include "src/photons/lit_march.h"
+#include "src/picture/air_view.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
@@ -70,6 +71,9 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
                                double& mean_relative) {
     Planes planes;
     PILEUS_TRY(compose(context, view, planes));
+    // Relative to the light that the picture has.
+    PILEUS_TRY(show_air(context, view.scene, view.world.medium, view.lighting, view.camera,
+                        view.environment, planes));
     mean_relative = batch_error_sum(planes, view.camera.width, view.camera.height).mean_relative();
     return Status::ok();
 }

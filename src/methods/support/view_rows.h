@@ -31,7 +31,8 @@ constexpr FeatureRow kViewRows[] = {
         exact(), exact(), exact(), exact(), exact(), exact(), bounded("of the grid"),
         bounded("of the grid"), bounded("of each cloud's picture from the sun")),
     row(Feature::kSolids, FeatureGroup::kOfGround, "[[solid]]", "solid.N",
-        "all but path: surfaces have all of the sky, x 2 below thick decks, as the plan says",
+        "below media as the ground there by ordinates over a ground with an albedo; else all but "
+        "path: surfaces have all of the sky, x 2 below thick decks, as the plan says",
         bounded("3 %"), bounded("-2 to +4 %"), bounded("3 %"), exact(),
         bounded("sun's shadow on nodes two cells apart: -2 to +2 %"), bounded("as raymarch"),
         bounded("no sun's shadow with light = exact"), bounded("as particles"),

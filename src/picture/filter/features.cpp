@@ -9,7 +9,7 @@
 namespace pileus {
 namespace {
 
-constexpr float kLeastWeighed = 0.02f;
+constexpr float kMinWeighed = 0.02f;
 /// Of the ground's light: its noise where nothing is before it, of that in half shadow.
 constexpr float kBareNoise = 0.05f;
 constexpr float kDarkest = 1e-37f;  // less of the sun than this is no number of its own
@@ -44,7 +44,7 @@ void media_features(const RegressionInput& in, bool opaque, float* out) {
         for (int g = 0; g < 3; ++g) f[2 + g] = in.guides[std::size_t(g) * pixels + i];
         f[5] = alpha * x;
         f[6] = alpha * y;
-        f[7] = 1.0f / (alpha + kLeastWeighed);
+        f[7] = 1.0f / (alpha + kMinWeighed);
     });
 }
 
@@ -61,7 +61,7 @@ void ground_features(const RegressionInput& in, float* out) {
         f[4] = seen * x;
         f[5] = seen * y;
         // A path gets through the media or it does not: its noise is that of a coin.
-        f[7] = 1.0f / (seen * (1.0f + kBareNoise - seen) + kLeastWeighed);
+        f[7] = 1.0f / (seen * (1.0f + kBareNoise - seen) + kMinWeighed);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is known of each pixel without noise, for the filter: one march with light on nodes.
-// in: a medium, the sun, a camera -> out: transmittance and depths; the sun's light, seen thrice.
+// in: a medium, the sun, lamps, a camera -> out: transmittance and depths; the sun's light, seen
+// thrice, or twice and that of lamps.
 // docs/filter.md
 #pragma once
 #include "src/picture/march_view.h"
@@ -14,6 +15,9 @@ constexpr int kGuidePlanes = 3;
 /// Shares of the extinction towards the sun in the two others.
 constexpr float kGuideShares[kGuidePlanes - 1] = {0.2f, 0.04f};
 
+/// Lamps whose light is among the guides, at most: those that light the box's middle most.
+constexpr std::size_t kMaxGuidingLamps = 16;
+
 struct FilterGuides {
     NodeGrid nodes{};
     Buffer<float> sun_depth;   ///< [node], optical depth to the sun
@@ -26,6 +30,8 @@ namespace arrays {
 
 /// Numbers of the guides' nodes, with or without those of solids.
 Array<float> guide_nodes(const Medium& medium, bool solids);
+/// Nodes of as many of so many lamps as guide.
+Array<float> guide_lamps(const Medium& medium, std::size_t lamps);
 inline Array<float> guide_planes(std::uint64_t pixels) {
     return {"guides of the filter", bytes_of(kGuidePlanes, pixels), Stage::kPaths, Stage::kLayers};
 }

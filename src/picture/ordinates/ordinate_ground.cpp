@@ -329,12 +329,14 @@ Status mix_ground(const Context& context, const Medium& medium, const Majorants&
     return Status::ok();
 }
 
-void read_ground_light(const OrdinateNodes& nodes, BackgroundParams& k, BackgroundBuffers& b) {
+void read_ground_light(const OrdinateNodes& nodes, const Lighting& light, BackgroundParams& k,
+                       BackgroundBuffers& b) {
     const OrdinateGround& ground = nodes.ground;
     if (ground.map.size[0] == 0) return;
     k.map = ground.map;
     for (int a = 0; a < 2; ++a) k.map_origin[a] = ground.origin[a];
     for (int c = 0; c < 3; ++c) k.sun_rest[c] = ground.sun_rest[c];
+    k.map_per_albedo = light.has_bright_ground() ? float(1 / light.ground.albedo) : 0;
     b.map = ground.radiance.data();
 }
 

@@ -8,7 +8,6 @@ namespace pileus {
 enum class ParticleLight { kCentre, kLinear, kExact };
 enum class ParticleScattering { kAuto, kSingle, kEffective, kSimilarity, kOctaves, kByNodes };
 
-/// Method particles; src/scene/keys/particles.cpp says what each means.
 /// Light scattered more than once, as each way of it reads.
 struct ParticleOrders {
     int count = 8;  ///< of octaves, 1..8
@@ -24,6 +23,7 @@ struct ParticleShadows {
     double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
 };
 
+/// Method particles; src/scene/keys/particles.cpp says what each means.
 struct ParticlesSettings {
     /// As written; scattering_in_use() is what counts.
     ParticleScattering scattering = ParticleScattering::kAuto;

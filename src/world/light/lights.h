@@ -84,6 +84,8 @@ struct Lighting {
 
     /// Whether rays may end before the sky.
     bool opaque() const { return ground.present || solids != nullptr || depth != nullptr; }
+    /// Whether the ground sends light back.
+    bool has_bright_ground() const { return ground.present && ground.albedo > 0; }
 };
 
 /// What shines on a frame, in the media's coordinates. References outlive the call.

@@ -152,10 +152,13 @@ void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan) {
     if (depth.present) plan.need("the camera's depth image");
 }
 
-void note_surface_light(const Solids& solids, Plan& plan) {
-    if (solids.meshes)
+void note_surface_light(const Solids& solids, bool mapped, Plan& plan) {
+    if (!solids.meshes) return;
+    if (mapped)
+        plan.need("light of media on solids, as on the ground below them: approximation");
+    else
         plan.leave_out("the sky that media hide from solids, and light that they send there",
-                       "not by this method");
+                       "no discrete ordinates over a ground with an albedo");
 }
 
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
