@@ -149,7 +149,8 @@ Status show_lamps(const Context& context, const Medium& medium, const LampMarchP
     PILEUS_TRY(allocate(arrays::picture_planes(1, planes.opaque_depth.size(), Stage::kPaths),
                         own.opaque_depth));
     std::copy_n(planes.opaque_depth.data(), planes.opaque_depth.size(), own.opaque_depth.data());
-    PILEUS_TRY(add_lamp_light(context, medium, k, nodes, own));
+    // Who ends a step does so between two units.
+    PILEUS_TRY(add_lamp_light(context, medium, k, nodes, own, 0, nullptr, true));
     for (std::size_t i = 0; i < pixels; ++i)
         guide[i] = (own.colour[i] + own.colour[pixels + i] + own.colour[2 * pixels + i]) / 3;
     return Status::ok();
@@ -157,12 +158,9 @@ Status show_lamps(const Context& context, const Medium& medium, const LampMarchP
 
 /// Lamps' light scattered once in place of the last plane; without a sun in place of the first,
 /// and what of it gets through a part of the extinction, turned to all sides, in that of the next.
-Status guide_by_lamps(const Context& given, const Medium& medium, const Majorants& majorants,
+Status guide_by_lamps(const Context& context, const Medium& medium, const Majorants& majorants,
                       const Lighting& lighting, const CameraParams& camera, const Planes& planes,
                       FilterGuides& guides) {
-    // Guides are whole: who ends a step does so between two units.
-    Context context = given;
-    context.interrupted = nullptr;
     const Lighting lamps = guiding_lamps(lighting, medium);
     LampNodes nodes;
     PILEUS_TRY(make_lamp_nodes(context, medium, majorants, lamps, false, nodes));

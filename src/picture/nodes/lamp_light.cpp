@@ -143,8 +143,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
 }
 
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
-                      const LampNodes& nodes, Planes& planes, std::size_t first,
-                      const float* beam) {
+                      const LampNodes& nodes, Planes& planes, std::size_t first, const float* beam,
+                      bool whole) {
     if (!kLights) return Status::ok();
     const StageClock clock(context, "light of lights");
     LampMarchBuffers b{};
@@ -162,14 +162,15 @@ Status add_lamp_light(const Context& context, const Medium& medium, const LampMa
     if (on_device(context.kernels->device))
         return launch_on_device(*context.kernels->device, k, b, LampRows::kMarch,
                                 std::uint32_t(rows));
-    const auto march = [&](std::int64_t piece, int) {
+    auto march = [&](std::int64_t piece, int) {
         const std::int64_t begin = piece * kPiece;
         const std::int64_t end = begin + kPiece < rows ? begin + kPiece : rows;
         context.kernels->lamp_march_rows(k, b, std::uint32_t(begin), std::uint32_t(end));
     };
-    const bool whole =
-        run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);
-    if (!whole)
+    const std::int64_t pieces = (rows + kPiece - 1) / kPiece;
+    if (whole)
+        parallel_for(context.threads, pieces, march);
+    else if (!run_until(context.threads, pieces, context.interrupted, march))
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     return Status::ok();
 }

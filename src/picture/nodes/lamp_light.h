@@ -53,9 +53,9 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
 
 /// Adds the lamps' light and the media's own to the planes' colour and, where rays end at the
 /// ground, that of the lamps to their background. Of k.lamps lamps of `nodes` from `first` on.
-/// `beam`: tables of k.beam_sets.
+/// `beam`: tables of k.beam_sets. `whole`: a user's wish to end waits.
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
                       const LampNodes& nodes, Planes& planes, std::size_t first = 0,
-                      const float* beam = nullptr);
+                      const float* beam = nullptr, bool whole = false);
 
 }  // namespace pileus
