@@ -75,9 +75,11 @@ constexpr FeatureRow kMediaRows[] = {
         bounded("as its kinds")),
     row(Feature::kPhaseNarrow, FeatureGroup::kOfPhase,
         "hg-draine, cloud, table, moments, g above 0.9", "medium.N.phase",
-        "no pixel brighter than its lights allow", bounded("by angle -6 to +6 %"),
-        bounded("by angle -6 to +13 %"), bounded("as collectors"), exact("0.9 % below 176 deg"),
-        bounded("-5 to +5 %; octaves by angle -52 to +56 %"),
+        "no pixel brighter than its lights allow; by photons g above 0.95 up to a third too dark "
+        "along thin decks and several times too bright where little light gets to, deep media with "
+        "a warning",
+        bounded("by angle -6 to +6 %"), bounded("by angle -6 to +13 %"), bounded("as collectors"),
+        exact("0.9 % below 176 deg"), bounded("-5 to +5 %; octaves by angle -52 to +56 %"),
         ignored("by design: its own g, docs/optical-depth.md"), bounded("as the sun; +7 %"),
         bounded("as the sun; +7 %"), bounded("as its kinds")),
 };
