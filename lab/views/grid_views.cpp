@@ -7,8 +7,6 @@
 #include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/photons/photon_report.h"
 #include "src/photons/scatter.h"
-#include "src/scene/frames.h"
-#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {

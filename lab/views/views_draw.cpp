@@ -13,7 +13,6 @@
 #include "src/base/digest.h"
 #include "src/base/powers.h"
 #include "src/methods/collectors/prepare/tree.h"
-#include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {

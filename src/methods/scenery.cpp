@@ -2,6 +2,8 @@
 // See scenery.h.
 #include "src/methods/scenery.h"
 
+#include "src/picture/air_view.h"
+
 namespace pileus {
 
 Status open_method(const MethodRow& row, const MadeMethod& made, const Context& context, bool exact,
@@ -29,6 +31,11 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
     scenery.light(0);
     PILEUS_TRY(made.method->prepare(context, scenery.view(0)));
     return make_plan(made, context, scenery, plan);
+}
+
+Status show_air(const Context& context, const FrameView& view, Planes& planes) {
+    return show_air(context, view.scene, view.world.medium, view.lighting, view.camera,
+                    view.environment, planes);
 }
 
 }  // namespace pileus

@@ -65,6 +65,9 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
 /// of memory or of work.
 Status make_plan(const MadeMethod& made, const Context& context, Scenery& scenery, Plan& plan);
 
+/// A picture of the view as it is seen through the air, in its planes. kLimit: out of memory.
+Status show_air(const Context& context, const FrameView& view, Planes& planes);
+
 /// A world of the scene alone, as far as sizes tell.
 Status outline_own_world(const Scene& scene, WorldUse use, const HostMedia& given,
                          const Context& context, std::shared_ptr<World>& world);

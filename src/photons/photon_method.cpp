@@ -8,8 +8,6 @@
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
 #include "src/picture/late_rows.h"
-#include "src/scene/frames.h"
-#include "src/world/camera/view.h"
 
 namespace pileus {
 

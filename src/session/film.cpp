@@ -11,7 +11,6 @@
 #include "src/run/work_share.h"
 #include "src/session/session.h"
 #include "src/session/stop_rule.h"
-#include "src/world/camera/view.h"
 
 namespace pileus {
 

@@ -7,7 +7,6 @@
 #include "src/base/digest.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/methods/registry.h"
-#include "src/picture/air_view.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -207,8 +206,7 @@ LightUnits Session::light() const { return made_.method->progress(); }
 Status Session::draw(const FrameView& view, const RenderAsk& ask, Planes*& planes) {
     PILEUS_TRY(made_.method->render(context_, view, ask, planes));
     if (row_.shows_air) return Status::ok();
-    return show_air(context_, view.scene, view.world.medium, view.lighting, view.camera,
-                    view.environment, *planes);
+    return show_air(context_, view, *planes);
 }
 
 Status Session::render(const FrameTarget& target) {

@@ -10,7 +10,6 @@
 #include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
 #include "src/picture/ordinates/ordinate_ground.h"
-#include "src/world/camera/view.h"
 #include "src/world/world.h"
 
 namespace pileus {
@@ -29,10 +28,9 @@ Status add_lamps(const Context& context, const FrameView& view, MarchState& stat
                           lamp_tables(state));
 }
 
-/// Parts need the whole background, a trial for a budget of seconds any row's depths.
+/// A trial for a budget of seconds needs any row's depths.
 LateRows* late_march(const FrameView& view, LateRows* late, const MarchState& state) {
-    const OutputSettings& output = view.scene.output;
-    if (output.layer_light || output.layer_order || state.choice.seconds > 0) return nullptr;
+    if (state.choice.seconds > 0) return nullptr;
     return late_rows_of(late, view.lighting, view.world.medium, state.choice.settings.thin,
                         view.camera, view.frame);
 }

@@ -9,7 +9,6 @@
 #include "src/picture/finish_frame.h"
 #include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
-#include "src/world/camera/view.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
 #include "src/world/world.h"

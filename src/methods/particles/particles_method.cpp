@@ -7,8 +7,6 @@
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/whole_rays.h"
-#include "src/scene/frames.h"
-#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {

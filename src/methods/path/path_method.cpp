@@ -2,7 +2,6 @@
 // See path_method.h. Preparation; path_light.cpp traces, path_show.cpp makes the picture.
 #include "src/methods/path/path_method.h"
 
-#include "src/scene/frames.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {

@@ -2,9 +2,8 @@
 // See photon_grid_method.h.
 #include "src/methods/photon_grid/photon_grid_method.h"
 
+#include "src/methods/scenery.h"
 #include "src/photons/lit_march.h"
-#include "src/picture/air_view.h"
-#include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -72,8 +71,7 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
     Planes planes;
     PILEUS_TRY(compose(context, view, planes));
     // Relative to the light that the picture has.
-    PILEUS_TRY(show_air(context, view.scene, view.world.medium, view.lighting, view.camera,
-                        view.environment, planes));
+    PILEUS_TRY(show_air(context, view, planes));
     mean_relative = batch_error_sum(planes, view.camera.width, view.camera.height).mean_relative();
     return Status::ok();
 }
