@@ -6,6 +6,7 @@
 #include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/beam.h"
+#include "kernels_cpu/display/behind.h"
 #include "kernels_cpu/display/lit_nodes.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/display/pixel_light.h"
@@ -28,7 +29,8 @@ constexpr int kMaxMarched = 3 * 17;  // channels: the picture's and those of six
 /// The sun's first order along one ray, per unit of the sunlight that arrives.
 template <class T>
 struct SunAlongRay {
-    T phase[kMaxMedia];
+    T phase[kMaxMedia];  // where the peak is apart, without it
+    T peak[kMaxMedia];
     bool lit;
     T most;  // of any phase function's mean over the pixel, 1/sr
     BeamAngle<T> angle;
@@ -45,8 +47,68 @@ PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction
         s.phase[i] = min_(phase_density(k.phase[i], turn), s.most);
         for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
     }
+    if (k.apart != 0) {
+        const T within = share_in_peak(turn, k.peak_turn);
+        for (int i = 0; i < kMaxMedia && i < k.media; ++i) {
+            s.peak[i] = s.phase[i] * within;
+            s.phase[i] = s.phase[i] - s.peak[i];
+        }
+    }
     if (k.beam_sets > 0) s.angle = beam_angle(turn);
     return s;
+}
+
+/// A ray where light that turns within the peak of a phase function goes on as it came.
+template <class T>
+struct ApartRay {
+    T left[3] = {all<T>(1.0f), all<T>(1.0f), all<T>(1.0f)};
+    T own[3];            // of a step: what it shows, over the share of extinction that counts
+    T rest[3];           // that share, by the media at the step
+    T share[kMaxMedia];  // theirs
+};
+template <bool Constant, class T>
+PILEUS_FN void apart_step(const MarchParams& k, const MarchBuffers& b, const Corners<T>& at,
+                          T density, T optical, ApartRay<T>& r) {
+    const std::int32_t* n = k.medium.size;
+    for_shares(
+        b.parts, std::int64_t(n[0]) * n[1] * n[2], k.media, density,
+        [&](const float* grid) { return read_density<Constant>(grid, at); },
+        [&](int i, T share) { r.share[i] = share; });
+    for (int c = 0; c < 3; ++c) {
+        if (c < k.apart) {
+            T rest{};
+            for (int i = 0; i < k.media; ++i) rest = rest + r.share[i] * k.rest[i][c];
+            r.rest[c] = max_(rest, all<T>(1e-6f));
+            const T lost = one_minus_exp(optical * r.rest[c]);
+            r.own[c] = r.left[c] * lost / r.rest[c];
+            r.left[c] = r.left[c] * (1.0f - lost);
+        } else {
+            r.rest[c] = r.rest[0], r.own[c] = r.own[0], r.left[c] = r.left[0];
+        }
+    }
+}
+/// What is left of a ray.
+template <class T>
+PILEUS_FN T left_of(const MarchParams& k, T transmittance, const ApartRay<T>& r) {
+    return k.apart != 0 ? max_(r.left[0], max_(r.left[1], r.left[2])) : transmittance;
+}
+
+/// Adds the sun's light where its optical depth is `tau`: to `out` without the peak, to `kept`
+/// within it. Nodes hold one depth: the media here stand for those on the way.
+template <class T>
+PILEUS_FN void add_sun_apart(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s,
+                             const ApartRay<T>& r, T tau, T visible, T (&out)[3], T (&kept)[3]) {
+    T beam[3], left[3] = {};
+    beam_light(b.beam, k.beam_sets, k.beam_rest, s.angle, s.most, tau, visible, beam);
+    const T whole = exp_(T{} - tau) * visible;
+    for (int c = 0; c < 3; ++c)
+        left[c] = c < k.apart ? exp_(T{} - tau * r.rest[c]) * visible : left[0];
+    for (int i = 0; i < k.media; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const T source = r.share[i] * k.sun_source[i][c];
+            out[c] = out[c] + left[c] * s.phase[i] * source;
+            kept[c] = kept[c] + (whole * s.peak[i] + beam[c]) * source;
+        }
 }
 
 /// Adds light of the sun's beam where its optical depth is `tau`.
@@ -129,12 +191,12 @@ PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<
     }
 }
 
-/// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes,
-/// which `quad` holds where there are quads.
+/// Adds `weight` times all light that leaves towards the camera: `even`, what is the same for all
+/// batches, and that of the nodes, which `quad` holds where there are quads.
 template <int W>
 PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
                           const Vec<F<W>>& way, RayHarmonics<W>& h, const NearLight<W>& near,
-                          const F<W> (&direct)[3], const F<W> (&quad)[4], F<W> weight,
+                          const F<W> (&even)[3], const F<W> (&quad)[4], const F<W> (&weight)[3],
                           F<W>* colour) {
     using T = F<W>;
     const bool blends = b.near != nullptr && any(near.share > 0.0f);
@@ -143,7 +205,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
     };
     if (b.quads != nullptr) {
         for (int i = 0; i < 3; ++i)
-            colour[i] = colour[i] + weight * (blended(quad[i], i) + (direct[i] + k.constant[i]));
+            colour[i] = colour[i] + weight[i] * (blended(quad[i], i) + even[i]);
         return;
     }
     const Corners<T> c =
@@ -152,15 +214,15 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
     if (k.bands == 0 || b.near != nullptr) {
         for (int i = 0; i < k.channels; ++i) {
             T source = blended(interpolate(b.source + i * nodes, c), i);
-            source = source + (direct[i % 3] + k.constant[i % 3]);
-            colour[i] = colour[i] + weight * source;
+            source = source + even[i % 3];
+            colour[i] = colour[i] + weight[i % 3] * source;
         }
         return;
     }
     T source[3];
-    for (int i = 0; i < 3; ++i) source[i] = direct[i] + k.constant[i];
-    turn_to_place(k, way, metres, weight > 0.0f, h);
-    for (std::uint32_t lanes = bits_of(weight > 0.0f); lanes != 0; lanes &= lanes - 1) {
+    for (int i = 0; i < 3; ++i) source[i] = even[i];
+    turn_to_place(k, way, metres, weight[0] > 0.0f, h);
+    for (std::uint32_t lanes = bits_of(weight[0] > 0.0f); lanes != 0; lanes &= lanes - 1) {
         const int l = lowest_bit(lanes);
         float light[3] = {};
         light_along(k, b.source, c, l, h.y[l], light);
@@ -168,7 +230,33 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
             for (int i = 0; i < 3; ++i)
                 set_lane(source[i], l, lane(source[i], l) + light[s] * k.set_colour[s][i]);
     }
-    for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight * source[i];
+    for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight[i] * source[i];
+}
+
+/// Adds light of what lies behind that turned within the peak alone. A ray that ends at a surface
+/// has that surface's.
+template <int W>
+PILEUS_FN void add_behind(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& way,
+                          std::int32_t x, std::int32_t y, std::int32_t end,
+                          const ApartRay<F<W>>& apart, F<W> transmittance, F<W>* colour) {
+    using T = F<W>;
+    T light[3];
+    light_behind(k.behind, way, light);
+    if (b.surfaces != nullptr) {
+        const std::int64_t plane = std::int64_t(k.camera.width) * k.camera.height;
+        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
+            if (!(b.opaque_depth[pixel] < __builtin_inff())) return;
+            const std::int64_t column = pixel % k.lattice.width, row = pixel / k.lattice.width;
+            const std::int64_t at = (row * k.lattice.every + k.lattice.first[1]) * k.camera.width +
+                                    (column * k.lattice.every + k.lattice.first[0]);
+            const float rgb[3] = {b.surfaces[at], b.surfaces[plane + at],
+                                  b.surfaces[2 * plane + at]};
+            if (k.behind.hidden != 0 && !(rgb[0] + rgb[1] + rgb[2] > 0.0f)) return;
+            for (int c = 0; c < 3; ++c) set_lane(light[c], l, rgb[c]);
+        });
+    }
+    for (int i = 0; i < k.channels; ++i)
+        colour[i] = colour[i] + max_(apart.left[i % 3] - transmittance, T{}) * light[i % 3];
 }
 
 /// Pieces that a step is taken in where it is deep: light falls off within one, and its middle does
@@ -214,12 +302,13 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
     T colour[kMaxMarched];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
+    ApartRay<T> apart;
     Pace<T> pace;
     march_ray<Constant>(
         k.medium, ray, box.enter, leave, pace,
         [&](M<W> dense, T middle, T whole, const Vec<T>& centre,
             const Vec<T>& place) PILEUS_INLINED {
-            if (!any(dense)) return transmittance < k.cut;
+            if (!any(dense)) return left_of(k, transmittance, apart) < k.cut;
             T t = middle, width = whole;
             Vec<T> p = centre, metres = place;
             Corners<T> at;
@@ -232,7 +321,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             look();
             T optical = select(dense, density * k.medium.sigma * width, T{});
             pace.inside = optical > 0.0f;
-            if (!any(pace.inside)) return transmittance < k.cut;
+            if (!any(pace.inside)) return left_of(k, transmittance, apart) < k.cut;
             const T pieces = pieces_of(optical, pace.stride);
             const auto deep = pieces > 1.0f;
             width = whole / pieces;
@@ -248,7 +337,11 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                 depth = depth + optical;
                 const T alpha = one_minus_exp(optical);
                 const T weight = transmittance * alpha;
-                T direct[3] = {}, quad[4] = {};
+                T weights[3] = {weight, weight, weight}, direct[3] = {}, kept[3] = {}, quad[4] = {};
+                if (k.apart != 0) {
+                    apart_step<Constant>(k, b, at, density, optical, apart);
+                    for (int c = 0; c < 3; ++c) weights[c] = apart.own[c];
+                }
                 if (b.quads != nullptr) read_quads(k, b, metres, optical > 0.0f, quad);
                 if (sun.lit) {
                     T tau = quad[3], visible = all<T>(1.0f);
@@ -261,13 +354,22 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                                 max_(min_(interpolate(b.visibility, near), all<T>(1.0f)), T{});
                     }
                     tau = max_(tau, T{});
-                    T light = exp_(T{} - tau);
-                    if constexpr (Veiled) light = light * visible;
-                    sun_source_at<Constant>(k, b, sun, at, density, light, direct);
-                    if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
+                    if (k.apart != 0) {
+                        add_sun_apart(k, b, sun, apart, tau, visible, direct, kept);
+                        for (int i = 0; i < k.channels; ++i)
+                            colour[i] = colour[i] + weight * kept[i % 3];
+                    } else {
+                        T light = exp_(T{} - tau);
+                        if constexpr (Veiled) light = light * visible;
+                        sun_source_at<Constant>(k, b, sun, at, density, light, direct);
+                        if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
+                    }
                 }
                 if (b.near != nullptr) read_near(k, b, ray, t, optical > 0.0f, harmonics, around);
-                add_source<W>(k, b, metres, ray.direction, harmonics, around, direct, quad, weight,
+                for (int c = 0; c < 3; ++c)
+                    direct[c] = direct[c] + (k.apart != 0 ? apart.rest[c] * k.constant[c]
+                                                          : all<T>(k.constant[c]));
+                add_source<W>(k, b, metres, ray.direction, harmonics, around, direct, quad, weights,
                               colour);
                 const T left = transmittance * (1.0f - alpha);
                 if (b.half_depth != nullptr) {
@@ -283,8 +385,9 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             for (int i = 0; i < kWiderSteps; ++i)
                 pace.stride =
                     select(transmittance < k.wider[i], all<T>(float(2 << i)), pace.stride);
-            return transmittance < k.cut;
+            return left_of(k, transmittance, apart) < k.cut;
         });
+    if (k.apart != 0) add_behind<W>(k, b, ray.direction, x, y, end, apart, transmittance, colour);
     for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);

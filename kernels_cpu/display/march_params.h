@@ -81,6 +81,22 @@ constexpr int kBeamNumbers = (kBeamAngles + 1) * (kBeamDepths + 1);
 
 constexpr int kWiderSteps = 3;
 
+/// What lies behind media, as light that turns within the peak of a phase function brings it.
+constexpr int kHorizon = 17;
+struct BehindView {
+    float sky[3];     ///< radiance
+    SkyMapView map;   ///< or of a map
+    float ground[3];  ///< of rays that go down
+    std::int32_t has_ground;
+    /// Share of what turns within the peak that comes from above the horizon, by the sine of the
+    /// ray's height, from 0 to that of the peak's width.
+    float horizon[kHorizon];
+    float per_horizon;  ///< entries of it in a sine of 1
+    /// 1: what sends nothing is a depth image, which hides things from the camera alone: sky and
+    /// ground behind it shine on what stands before.
+    std::int32_t hidden;
+};
+
 struct MarchParams {
     MediumView medium;
     CameraParams camera;
@@ -107,6 +123,13 @@ struct MarchParams {
     std::int32_t
         beam_sets;       ///< tables of the sun's light that stays in its beam: 0, 1 or a channel
     float beam_rest[3];  ///< share of extinction that takes light out of the beam, by channel
+    /// Light on nodes is what turns by more than the peak of the phase function, and the beam's
+    /// tables are of turns within it alone: channels of what is left where these do not count, 1
+    /// or 3; 0: nodes and tables have all turns.
+    std::int32_t apart;
+    float rest[kMaxMedia][3];  ///< 1 - albedo times the peak's share: of extinction that counts
+    float peak_turn;           ///< 1 - cos of the peak's width
+    BehindView behind;
 };
 struct MarchBuffers {
     const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
@@ -124,7 +147,8 @@ struct MarchBuffers {
     /// [node][R, G, B, optical depth to the sun] in place of `source`, and, where the shadow nodes
     /// are the same, of `optical_depth`; null: none. For three channels without bands.
     const float* quads;
-    const float* near;  ///< [channel / 3][near node][set][harmonic]; null: none
+    const float* near;      ///< [channel / 3][near node][set][harmonic]; null: none
+    const float* surfaces;  ///< [3][pixel] of the whole picture: of what is solid; null: nothing is
 };
 
 struct BackgroundParams {

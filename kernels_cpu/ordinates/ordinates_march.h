@@ -6,7 +6,7 @@
 #pragma once
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/display/beam.h"
-#include "kernels_cpu/light/sky_map.h"
+#include "kernels_cpu/display/behind.h"
 #include "kernels_cpu/ordinates/ordinates_params.h"
 #include "kernels_cpu/raymarch/raymarch.h"
 
@@ -241,47 +241,26 @@ PILEUS_FN RaySample<T> sample_at(const OrdinatesMarch<T, Field>&, T, T, M_of<T>)
     return RaySample<T>{};
 }
 
-/// Of what turns within the peak, the share from above the horizon.
-template <class T>
-PILEUS_FN T share_above(const OrdinatesMarchParams& o, T sine) {
-    const T at = min_(abs_(sine) * o.per_horizon, all<T>(float(kHorizon - 1)));
-    const auto low = to_int(min_(at, all<T>(float(kHorizon - 2))));
-    const T first = gather(o.horizon, low), next = gather(o.horizon + 1, low);
-    const T share = first + (next - first) * (at - to_float(low));
-    return select(sine < 0.0f, 1.0f - share, share);
-}
-
 /// Light of what lies behind that turned within the peak alone, and so goes on as it came.
 template <int W>
 PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const OrdinatesMarchBuffers& n,
                           const MarchedBlock<W>& at, OrdinatesSum<F<W>>& sum) {
     using T = F<W>;
-    const Vec<T>& d = at.ray.direction;
-    T sky[3];
-    for (int c = 0; c < 3; ++c) sky[c] = all<T>(o.sky[c]);
-    if (o.map.columns > 0) {
-        // Below the horizon what the map has just above it.
-        Vec<T> from = d;
-        if (o.has_ground != 0) {
-            from.z = max_(d.z, T{});
-            const T unit = 1.0f / sqrt_(max_(dot(from, from), all<T>(1e-20f)));
-            from = Vec<T>{from.x * unit, from.y * unit, from.z * unit};
-        }
-        const Vec<T> seen = map_radiance(o.map, from);
-        sky[0] = seen.x, sky[1] = seen.y, sky[2] = seen.z;
-    }
-    const T above = o.has_ground != 0 ? share_above(o, d.z) : all<T>(1.0f);
+    T light[3];
+    light_behind(o.behind, at.ray.direction, light);
     const std::int64_t pixels = std::int64_t(o.march.camera.width) * o.march.camera.height;
     const auto pixel = at.y * o.march.camera.width + at.x;
-    for (int c = 0; c < 3; ++c) {
-        T behind = o.ground[c] + (sky[c] - o.ground[c]) * above;
-        if (n.surfaces != nullptr && any(at.solid))
-            behind = select(at.solid,
-                            gather(n.surfaces + c * pixels, select(at.solid, pixel, pixel - pixel)),
-                            behind);
-        sum.ray.colour[c] =
-            sum.ray.colour[c] + max_(sum.thin[c] - sum.ray.transmittance, T{}) * behind;
+    if (n.surfaces != nullptr && any(at.solid)) {
+        T rgb[3];
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = gather(n.surfaces + c * pixels, select(at.solid, pixel, pixel - pixel));
+        auto seen = at.solid;
+        if (o.behind.hidden != 0) seen = seen & (rgb[0] + rgb[1] + rgb[2] > 0.0f);
+        for (int c = 0; c < 3; ++c) light[c] = select(seen, rgb[c], light[c]);
     }
+    for (int c = 0; c < 3; ++c)
+        sum.ray.colour[c] =
+            sum.ray.colour[c] + max_(sum.thin[c] - sum.ray.transmittance, T{}) * light[c];
 }
 
 template <int W, class Field>

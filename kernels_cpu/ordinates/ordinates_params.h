@@ -64,7 +64,6 @@ inline std::int64_t ordinate_slice_floats(const OrdinatesParams& k, const Ordina
     return 2 * ordinate_row(k, s) * (k.size[s.across] + 2);
 }
 
-constexpr int kHorizon = 17;
 constexpr int kMaxOrdinateLevels = 8;
 
 /// Nodes of a sky in place: levels around the camera, each over twice the width of the one before
@@ -94,14 +93,7 @@ struct OrdinatesMarchParams {
     float turn;                ///< 1 - cos of the peak's width
     std::int32_t sunlit;
     float sun[kMaxMedia][3];  ///< irradiance times albedo
-    float sky[3];             ///< radiance behind the medium
-    SkyMapView map;           ///< or of a map
-    float ground[3];          ///< of rays that go down
-    std::int32_t has_ground;
-    /// Share of what turns within the peak that comes from above the horizon, by the sine of the
-    /// ray's height, from 0 to that of the peak's width.
-    float horizon[kHorizon];
-    float per_horizon;  ///< entries of it in a sine of 1
+    BehindView behind;
 };
 struct OrdinatesMarchBuffers {
     RaymarchBuffers march;

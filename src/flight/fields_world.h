@@ -11,7 +11,7 @@ namespace pileus {
 template <class A>
 void fields(A& a, Volume& v) {
     all(a, v.size, v.density, v.knows_bounds, v.bounds_m, v.in_extinction, v.missing, v.clamped,
-        v.blank, v.capped);
+        v.blank, v.capped, v.plain);
 }
 template <class A>
 void fields(A& a, Grid& v) {

@@ -5,6 +5,7 @@
 #include "src/base/digest.h"
 #include "src/flight/fields_scene.h"
 #include "src/flight/fields_world.h"
+#include "src/methods/path/path_importance.h"
 #include "src/scene/method_column.h"
 #include "src/world/camera/places.h"
 #include "src/world/medium/detail.h"
@@ -88,7 +89,7 @@ Status check_packable(const Scene& scene) {
     if (is_of_collectors(method_column(scene)) &&
         scene.collectors.display.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
-    if (method_column(scene) == MethodColumn::kPath && scene.path.importance)
+    if (method_column(scene) == MethodColumn::kPath && asks_for_importance(scene))
         return refuse(scene, "path.importance", "not packed", "false");
     if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)
         return refuse(scene, "filter.kind", "not packed", "none, regression");

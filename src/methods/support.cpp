@@ -42,8 +42,8 @@ constexpr bool columns_in_order() {
 }
 static_assert(columns_in_order(), "columns are in the order of MethodColumn");
 
-constexpr const char* kLevelNames[] = {"exact", "bounded", "refused", "ignored"};
-static_assert(sizeof kLevelNames / sizeof kLevelNames[0] == std::size_t(SupportLevel::kIgnored) + 1,
+constexpr const char* kLevelNames[] = {"exact", "bounded", "refused"};
+static_assert(sizeof kLevelNames / sizeof kLevelNames[0] == std::size_t(SupportLevel::kRefused) + 1,
               "a name for every level");
 
 constexpr const char* kGroupNames[] = {

@@ -48,8 +48,7 @@ constexpr const char* method_column_name(MethodColumn column) {
 enum class SupportLevel {
     kExact,    ///< but for noise and rounding
     kBounded,  ///< off by what `text` says
-    kRefused,  ///< in one line, before any work
-    kIgnored   ///< accepted without effect; `text` says where the plan or the docs tell it
+    kRefused   ///< in one line, before any work
 };
 const char* level_name(SupportLevel level);
 

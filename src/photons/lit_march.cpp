@@ -13,6 +13,7 @@
 #include "src/picture/nodes/solid_shadow.h"
 #include "src/run/on_device.h"
 #include "src/world/camera/view.h"
+#include "src/world/light/behind.h"
 
 namespace pileus {
 namespace {
@@ -30,6 +31,14 @@ NodeGrid shadow_grid(const FrameView& view) {
     return make_half_grid(view.world.medium.grid, view.world.medium.extent_m);
 }
 
+/// Of each medium's extinction what counts where turns within the peak do not.
+void set_rest(const Medium& medium, const Beam& beam, float (&rest)[kMaxMedia][3]) {
+    for (int i = 0; i < medium.count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            rest[i][c] =
+                float(1 - double(medium.optics[std::size_t(i)].albedo[c]) * beam.shares[i]);
+}
+
 SunTurn turn_of(const FrameView& view, const PhotonState& state) {
     return turn_of_sun(view, state.shadow.light_refresh, state.picture.turn);
 }
@@ -45,8 +54,13 @@ Status make_beam_tables(const Context& context, const FrameView& view, PhotonSta
     const bool points = beam_of_points(view, state);
     if (!(peak_turn > 0) || (beam.sets > 0 && (beam.points || !points))) return Status::ok();
     const StageClock clock(context, "shadow");
-    return make_beam(view.world.medium, peak_turn, points, BeamTurns::kAll, context.threads,
-                     Stage::kShadow, beam);
+    const bool apart = state.lights.deposit.apart;
+    PILEUS_TRY(make_beam(view.world.medium, peak_turn, points,
+                         apart ? BeamTurns::kPeak : BeamTurns::kAll, context.threads,
+                         Stage::kShadow, beam));
+    if (apart)
+        set_horizon(view.world.medium, beam, state.lights.deposit.peak_deg, state.shadow.behind);
+    return Status::ok();
 }
 
 }  // namespace
@@ -131,7 +145,7 @@ Status pack_nodes(const Context& context, const NodeGrid& nodes, const MediumVie
 
 Status march_rows(const Context& context, const FrameView& view, const PhotonState& state,
                   const NodeLight& source, const MarchParams& params, float* target,
-                  Planes& planes) {
+                  const float* surfaces, Planes& planes) {
     const StageClock clock(context, "march");
     MarchParams k = params;
     k.together = source.depths ? 1 : 0;
@@ -147,6 +161,7 @@ Status march_rows(const Context& context, const FrameView& view, const PhotonSta
     b.half_depth = planes.half_depth.data();
     b.colour = target;
     b.visibility = state.shadow.visibility.data();
+    if (has_meshes(state.lights.lighting)) b.surfaces = surfaces;
     PILEUS_TRY(run_rows(context, march_kernel(*context.kernels, k.medium), k, b,
                         std::uint32_t(k.lattice.height)));
     return Status::ok();
@@ -168,7 +183,7 @@ Status march_lit(const Context& context, const FrameView& view, PhotonState& sta
     NodeLight packed = source;
     if (reads_planes(k) && reads_quads(context, k.channels, k.source))
         PILEUS_TRY(pack_nodes(context, k.source, k.medium, state, packed));
-    return march_rows(context, view, state, packed, k, target, planes);
+    return march_rows(context, view, state, packed, k, target, planes.background.data(), planes);
 }
 
 Status march_thinned(const Context& context, const FrameView& view, const NodeLight& source,
@@ -194,7 +209,8 @@ Status march_thinned(const Context& context, const FrameView& view, const NodeLi
     in.march = [&](const PixelLattice& lattice, Planes& few) {
         MarchParams own = k;
         own.lattice = lattice;
-        return march_rows(context, view, state, packed, own, few.colour.data(), few);
+        return march_rows(context, view, state, packed, own, few.colour.data(),
+                          planes.background.data(), few);
     };
     return upsample_picture(context, in, state.picture.frame, memory, planes);
 }
@@ -215,6 +231,23 @@ void add_picture_rows(const Context& context, const FrameView& view, const Photo
     add_upsample_row(thin, size, lighting.opaque(), view.wants_depth() || thin.temporal > 0, false,
                      context.frames > 1 ? Stage::kWrite : Stage::kDisplay, table);
 }
+
+namespace {
+
+/// Turns within the peak go on as they came.
+void set_apart(const FrameView& view, const PhotonState& state, const Lighting& light,
+               MarchParams& k) {
+    const Medium& medium = view.world.medium;
+    const Beam& beam = state.shadow.beam;
+    k.apart = medium.channels > 1 ? 3 : 1;
+    k.peak_turn = state.lights.deposit.peak_turn;
+    set_rest(medium, beam, k.rest);
+    k.behind = state.shadow.behind;
+    set_behind(light, light.ground.radiance(), k.behind);
+    k.behind.hidden = view.environment.depth.present ? 1 : 0;
+}
+
+}  // namespace
 
 MarchParams lit_march_params(const FrameView& view, const PhotonState& state, const LightInput& lit,
                              const NodeGrid& source) {
@@ -237,6 +270,7 @@ MarchParams lit_march_params(const FrameView& view, const PhotonState& state, co
     k.beam_sets =
         lit.first_order_alone || state.lights.deposit.first_order != 2 ? 0 : state.shadow.beam.sets;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = state.shadow.beam.rest[c];
+    if (state.lights.deposit.apart && !lit.first_order_alone) set_apart(view, state, light, k);
     k.shadow = state.shadow.nodes;
     k.source = source;
     k.channels = 3;
@@ -302,6 +336,11 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
         lit.first_order_alone || !(lamp_peak_turn(state.lights.deposit) > 0) ? 0 : beam.sets;
     k.beam_points = beam.points ? 1 : 0;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = beam.rest[c];
+    if (state.lights.deposit.apart && !lit.first_order_alone) {
+        k.ordinates = medium.channels;
+        k.peak_turn = state.lights.deposit.peak_turn;
+        set_rest(medium, beam, k.rest);
+    }
     return add_lamp_light(context, medium, k, state.picture.lamps, planes, 0, beam.tables.data());
 }
 

@@ -132,18 +132,19 @@ void aim_deposit(const FrameView& view, PhotonState& state) {
         deposit.camera[a] = seen.orthographic ? -camera.forward[a] : camera.origin[a];
 }
 
-const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonState& state) {
+const char* why_no_peak(const FrameView& view, double peak_deg, bool harmonics,
+                        const PhotonState& state) {
     const Medium& medium = view.world.medium;
     if (!(peak_deg > 0)) return "switched off";
     const DepositPlan& deposit = state.lights.deposit;
-    if (!has_axes(state.lights.lighting)) return "no sun";
     // The first order of lamps is always the march's.
     if (state.lights.lighting.sunlit ? deposit.first_order != 2 : deposit.mode == kDepositOutgoing)
         return "the march does not show the first order";
-    if (medium.count != 1) return "other than one medium";
-    if (forward_share(medium.optics[0].phase, peak_deg) < kMinPeak)
-        return "the phase function has no peak";
-    return nullptr;
+    if (medium.count != 1 && !harmonics) return "other than one medium";
+    for (int i = 0; i < medium.count; ++i)
+        if (forward_share(medium.optics[std::size_t(i)].phase, peak_deg) >= kMinPeak)
+            return nullptr;
+    return "the phase function has no peak";
 }
 
 bool has_axes(const Lighting& lighting) { return lighting.sunlit || !lighting.lamps.empty(); }
@@ -154,9 +155,19 @@ void choose_axes(const FrameView& view, PhotonState& state) {
     d.axes = wanted_axes(view, state.lights.lighting, d);
 }
 
-void choose_peak(const FrameView& view, double peak_deg, PhotonState& state) {
-    const bool peak = why_no_peak(view, peak_deg, state) == nullptr;
-    state.lights.deposit.peak_turn = peak ? turn_of_deg(peak_deg) : 0;
+void choose_peak(const FrameView& view, double peak_deg, bool harmonics, PhotonState& state) {
+    const bool peak = why_no_peak(view, peak_deg, harmonics, state) == nullptr;
+    DepositPlan& deposit = state.lights.deposit;
+    deposit.peak_turn = peak ? turn_of_deg(peak_deg) : 0;
+    deposit.peak_deg = peak ? peak_deg : 0;
+    deposit.apart = peak && harmonics;
+    const Medium& medium = view.world.medium;
+    for (int i = 0; i < medium.count && deposit.apart; ++i) {
+        const std::vector<double> kept =
+            peak_moments(medium.optics[std::size_t(i)].phase, deposit.peak_turn);
+        for (std::size_t l = 0; l < kMaxBands + kMaxAxisDegrees; ++l)
+            deposit.kept[i][l] = l < kept.size() ? float(kept[l]) : 0.0f;
+    }
 }
 
 Status check_camera_closure(const char* key, const FrameView& view, const PhotonState& state) {

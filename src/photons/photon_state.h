@@ -60,6 +60,7 @@ struct SunShadow {
     SunSlices slices;
     int light_refresh = 1;  ///< frames in which sunlight on nodes is made anew
     Beam beam;              ///< made with the depths where deposit.peak_turn asks for it
+    BehindView behind{};    ///< made with the beam, without lights
 };
 
 /// What pictures keep.
@@ -151,9 +152,10 @@ void choose_axes(const FrameView& view, PhotonState& state);
 
 /// Decides deposit.peak_turn: light of the sun and of lamps scattered within so many degrees is
 /// kept apart from the photons' deposits, where the march shows the first order of one medium.
-void choose_peak(const FrameView& view, double peak_deg, PhotonState& state);
+void choose_peak(const FrameView& view, double peak_deg, bool harmonics, PhotonState& state);
 /// Why there is none; null: there is.
-const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonState& state);
+const char* why_no_peak(const FrameView& view, double peak_deg, bool harmonics,
+                        const PhotonState& state);
 
 /// Closure "camera" evaluates phase functions where photons scatter. kBadInput, named by `key`: one
 /// sends light exactly straight on or back, which has no density.

@@ -24,11 +24,14 @@ struct Mixture {
     float albedo = 0;
     float weight[kMaxMedia] = {};
     const Medium* medium = nullptr;
+    const DepositPlan* apart = nullptr;  ///< turns within the peak do not count; null: all do
 
     float moment(int l) const {
         float sum = 0;
-        for (int i = 0; i < medium->count; ++i)
-            sum += weight[i] * phase_moment(medium->optics[std::size_t(i)].phase, l);
+        for (int i = 0; i < medium->count; ++i) {
+            const float all = phase_moment(medium->optics[std::size_t(i)].phase, l);
+            sum += weight[i] * (apart != nullptr ? all - apart->kept[i][l] : all);
+        }
         return sum;
     }
     float density(float one_minus_cos) const {

@@ -20,6 +20,7 @@ struct FinishedParts {
     bool batches = false;  ///< the light has parts to tell an error by
     bool media = true;     ///< media are told apart on the grid
     double cell_m = 0;     ///< shortest edge of the cells that hold scattered light; 0: none do
+    bool wide = false;     ///< light of narrow phase functions is kept in wider angles
     int film = 0;          ///< parts of the light that a film tells apart; 0: no film
 };
 

@@ -61,6 +61,9 @@ Status launch_on_device(const DeviceTable& device, const MarchParams& params,
     DeviceArrays a(*device.device);
     add_medium(a, k.medium);
     for (int i = 0; i < k.media; ++i) a.in(k.phase[i].table);
+    if (k.apart == 0) k.behind.map = SkyMapView{};
+    add_sky(a, k.behind.map);
+    a.in(b.surfaces, 3 * pixels_in(k.camera));
     const Size pixels = pixels_in(k.lattice);
     const Size stored = Size(k.sets) * Size(k.harmonics);
     const Size numbers = k.bands > 0 && b.near == nullptr ? stored : Size(k.channels);

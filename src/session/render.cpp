@@ -24,12 +24,14 @@
 namespace pileus {
 namespace {
 
-/// What the files of weather data had that was no water, and grids that was no density.
+/// What files of weather data had that was no water, grids that was no density, and particles
+/// that no grid holds.
 void count_water(const Scene& scene, const World& world, Report& report) {
-    bool weather = false, grid = false;
+    bool weather = false, grid = false, particles = false;
     for (const MediumSettings& medium : scene.media) {
         const VolumeFormat* format = volume_format_named(medium.source.format);
         weather = weather || (format != nullptr && format->is_weather);
+        particles = particles || (format != nullptr && format->is_particles);
         grid = grid || (format != nullptr && !format->is_weather && !format->is_particles);
     }
     if (weather) {
@@ -40,6 +42,7 @@ void count_water(const Scene& scene, const World& world, Report& report) {
     } else if (grid) {
         report.counters.emplace_back("density_negative", world.medium.volume.clamped);
     }
+    if (particles) report.counters.emplace_back("particles_uncoloured", world.medium.volume.plain);
 }
 
 Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {
@@ -94,8 +97,7 @@ Status render_frames(const Scene& scene, const Shown& shown, const RunStart& sta
         count_water(scene, session.world(), report);
         if (options.show.empty()) find_warnings(scene, image, report);
         if (options.show.empty())
-            warn_of_cells(session.world().medium, session.method_report().finished().cell_m,
-                          report);
+            warn_of_light(session.world(), session.method_report().finished(), report);
         report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);

@@ -128,6 +128,8 @@ Status Verifier::open(const Scene& scene, const FrameState& frame, std::uint64_t
         scene_.path = PathSettings{};
         scene_.path.centre = true;
     }
+    // Paths one by one: none is below 0, which pictures would show as 0.
+    scene_.path.importance = ImportanceUse::kOff;
     scenery_.show(scene_, rest_);
     // Paths know particles on a grid alone, one finer than shadows ask for.
     if (world->shows_particles) world = nullptr;

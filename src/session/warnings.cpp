@@ -20,6 +20,8 @@ constexpr Accident kAccidents[] = {
     {"fractions_capped",
      "cells of weather data with more water than their cloud fraction tells, at most 10 times as "
      "dense in cloud"},
+    {"particles_uncoloured",
+     "particles with colours or emission of their own, for which a grid has the medium's alone"},
     {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
 };
 
@@ -90,33 +92,53 @@ void find_warnings(const Scene& scene, const Image& image, Report& report, bool 
 /// form finds". Ellipsoids of 10 optical depths and g = 0.97 are within 3 %, of 20 up to 10 % too
 /// bright, those that absorb and are seen where little light gets to twice.
 void warn_of_narrow(const Medium& medium, Report& report) {
-    constexpr double kNarrow = 0.93, kDeep = 10;
+    constexpr double kNarrow = 0.93, kDeep = 10, kNarrowest = 0.95, kThin = 0.3;
     double edge = medium.extent_m[2];
     for (int a = 0; a < 2 && !medium.grid.periodic; ++a) edge = std::min(edge, medium.extent_m[a]);
     const double depth = max_extinction(medium) * edge;
     float narrowest = 0;
     for (int i = 0; i < medium.count; ++i)
         narrowest = std::max(narrowest, phase_moment(medium.optics[std::size_t(i)].phase, 1));
-    if (!(double(narrowest) > kNarrow && depth > kDeep)) return;
+    if (!(double(narrowest) > kNarrow && depth > kDeep) &&
+        !(double(narrowest) > kNarrowest && depth > kThin))
+        return;
     report.warnings.push_back(
         "media: a phase function of mean cosine " + number_text(double(narrowest), 3) +
         " in up to " + number_text(depth, 3) +
-        " optical depths: light that is scattered often is kept in wider angles than it goes by, a "
-        "tenth too bright and, where media absorb or little light gets to, twice (method path or "
-        "raymarch)");
+        " optical depths: light that is scattered often is kept in wider angles than it goes by: a "
+        "tenth too bright and, where media absorb or little light gets to, several times; along "
+        "thin decks a third too dark (method path or raymarch)");
+}
+
+/// Most that diffuse light decays by in an optical depth, in diffusion: sqrt(3 (1 - a) (1 - a g)).
+double most_decay(const Medium& medium) {
+    double most = 0;
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        const double g = double(phase_moment(optics.phase, 1));
+        for (const float albedo : optics.albedo)
+            most = std::max(most, 3 * (1 - double(albedo)) * (1 - double(albedo) * g));
+    }
+    return __builtin_sqrt(most);
 }
 
 void warn_of_cells(const Medium& medium, double cell_m, Report& report) {
-    if (cell_m > 0) warn_of_narrow(medium, report);
     // A deck of one layer of 27 seen from above is 49 % too dark, of layers of 3.4 4 %. The default
     // cumulus, within 2.5 %, has leaves of up to 4.5, smaller ones at its rims.
     constexpr double kMaxDepth = 8;
+    // Where media absorb, light changes within the depth that it diffuses to.
+    constexpr double kMaxDiffusion = 2.5;
     const double depth = max_extinction(medium) * cell_m;
-    if (!(depth > kMaxDepth)) return;
+    if (!(depth > kMaxDepth || depth * most_decay(medium) > kMaxDiffusion)) return;
     report.warnings.push_back(
         "media: scattered light has one value in cells of up to " + number_text(depth, 3) +
         " optical depths: thick rims may be darker by a third and more (finer cells by "
         "medium.N.resolution or more photons; method path has none)");
+}
+
+void warn_of_light(const World& world, const FinishedParts& parts, Report& report) {
+    if (parts.wide || world.shows_particles) warn_of_narrow(world.medium, report);
+    warn_of_cells(world.medium, parts.cell_m, report);
 }
 
 }  // namespace pileus

@@ -5,9 +5,10 @@
 #pragma once
 #include "src/base/span.h"
 #include "src/io/images/image.h"
+#include "src/picture/finish_frame.h"
 #include "src/plan/report.h"
 #include "src/scene/scene.h"
-#include "src/world/medium/medium.h"
+#include "src/world/world.h"
 
 namespace pileus {
 
@@ -31,7 +32,9 @@ void find_warnings(const Scene& scene, const Image& image, Report& report, bool 
 bool shows_nothing(const Image& image);
 
 /// Adds a line where cells of scattered light, `cell_m` along their shortest edge, are so thick
-/// that it is far off, and where phase functions are narrower than what they hold.
+/// that it is far off.
 void warn_of_cells(const Medium& medium, double cell_m, Report& report);
+/// The same, and a line where phase functions are narrower than what cells or particles hold.
+void warn_of_light(const World& world, const FinishedParts& parts, Report& report);
 
 }  // namespace pileus

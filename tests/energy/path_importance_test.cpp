@@ -51,6 +51,12 @@ void check_same_mean(const std::vector<std::string>& set) {
     }
 }
 
+std::string why_without(const Picture& picture) {
+    for (const LeftOut& l : picture.report.plan.left_out)
+        if (l.what == "importance of paths") return l.why;
+    return "";
+}
+
 std::string sun_at(int azimuth, int elevation) {
     return "sun.azimuth_deg=" + std::to_string(azimuth) +
            "|sun.elevation_deg=" + std::to_string(elevation);
@@ -140,19 +146,34 @@ TEST_CASE("importance: the same bits from any number of threads and instruction 
         }
 }
 
-TEST_CASE("importance: what it does not know is refused in one line") {
-    const auto refusal = [](const std::vector<std::string>& set) {
-        const Status status = render(importance_scene(true, set), {},
-                                     [](int, Image&, Report&) { return Status::ok(); });
-        CHECK(status.code == Code::kBadInput);
-        return status.message;
+TEST_CASE("importance: what it does not know has paths one by one, and the plan says why") {
+    const std::pair<const char*, const char*> parts[] = {
+        {"medium.0.albedo=[0.9,0.99,1]", "an albedo that differs by channel"},
+        {"path.max_depth=2", "path.max_depth"},
+        {"sun.angular_radius_deg=0.27", "sun.angular_radius_deg"},
+        {"medium.0.phase={type=\"rayleigh\"}", "a phase function but Henyey-Greenstein's"}};
+    for (const auto& [set, why] : parts) {
+        CAPTURE(why);
+        const Picture with = render_one(importance_scene(true, {set}));
+        const Picture without = render_one(importance_scene(false, {set}));
+        CHECK(with.report.hash == without.report.hash);
+        CHECK(why_without(with) == why);
+        CHECK(why_without(without) == "switched off");
+    }
+}
+
+TEST_CASE("importance: by itself where the samples of a picture pay for its solution") {
+    const auto says = [](const std::vector<std::string>& set) {
+        Scene scene = importance_scene(true, set);
+        scene.path.importance = ImportanceUse::kAuto;
+        RenderOptions options;
+        options.budget.samples = 1;
+        return why_without(render_one(scene, options));
     };
-    CHECK(refusal({"medium.0.albedo=[0.9,0.99,1]"}) ==
-          "test.toml: path.importance: goes with no albedo that differs by channel so far, true, "
-          "allowed: false, or a scene without");
-    CHECK(refusal({"path.max_depth=2"}).find("no path.max_depth so far") != std::string::npos);
-    CHECK(refusal({"sun.angular_radius_deg=0.27"}).find("sun.angular_radius_deg") !=
-          std::string::npos);
-    CHECK(refusal({"medium.0.phase={type=\"rayleigh\"}"}).find("phase function") !=
-          std::string::npos);
+    CHECK(says({}) == "too few samples to pay for its solution");
+    CHECK(says({"path.samples_per_pixel=1000000"}) == "");
+    CHECK(says({"path.target_error=0.01"}) == "");
+    CHECK(says({"path.samples_per_pixel=1000000",
+                "medium.0.phase={type=\"henyey-greenstein\", g=0.5}"}) ==
+          "light is scattered too evenly");
 }

@@ -120,7 +120,7 @@ void fly_all(const char* folder, int least) {
         if (!packed) {
             CHECK_MESSAGE(packed.message.find(", allowed: ") != std::string::npos, packed.message);
             CHECK((!scene.solids.empty() || scene.media.front().detail.present() ||
-                   scene.path.importance));
+                   scene.path.importance == pileus::ImportanceUse::kOn));
             continue;
         }
         if (pileus::long_tests()) {

@@ -92,7 +92,7 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"75dd71ff7888976e", "e971206ee0785a60", "2f92bae36158810b", "f4e44262cfa75585"}},
+     {"feefb727d816c5b6", "716b9f1298efaadf", "552f9e64d7e3c6f6", "491810229785debb"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"

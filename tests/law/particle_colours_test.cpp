@@ -155,3 +155,22 @@ TEST_CASE("particles: colours do not depend on the order of the file") {
         for (const char* channel : {"R", "G", "B"}) CHECK(largest_difference(a, b, channel) == 0);
     }
 }
+
+TEST_CASE("particles: colours that a grid has no place for are told") {
+    const auto told = [](const std::string& table, const char* method) {
+        const Picture p = show(table, {std::string("method.name = \"") + method + "\""});
+        for (const std::string& line : p.report.warnings)
+            if (line.find("particles_uncoloured") != std::string::npos) return true;
+        return false;
+    };
+    const std::string red = balls(" red green blue", [](int) { return std::string(" 1 0 0"); });
+    const std::string shining = balls(" emission_red emission_green emission_blue",
+                                      [](int) { return std::string(" 1 1 1"); });
+    for (const char* method : {"raymarch", "path", "collectors"}) {
+        CAPTURE(method);
+        CHECK(told(red, method));
+        CHECK(told(shining, method));
+        CHECK_FALSE(told(balls("", [](int) { return std::string(); }), method));
+    }
+    CHECK_FALSE(told(red, "particles"));
+}

@@ -21,7 +21,8 @@ KNOWN = [
     ("raymarch", {"solid", "periodic"}, "walls on the ground below a deck"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
      for column in ("collectors", "photon-grid", "optical-depth")
-] + [(column, {"thick", "no-resolution"}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")]
+] + [(column, {"thick", cells}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")
+     for cells in ("no-resolution", "one-cell")]
 
 
 def explained(column, names):

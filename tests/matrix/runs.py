@@ -23,6 +23,8 @@ METHODS = {
     "particles": {"particles": {"light": "exact"}},
     "particles-billboards": {"particles": {"display": "billboards"}},
 }
+# Under suns of irradiance 1: the darkest code of eight bits where sunlit clouds are white.
+FAINT = 3e-4
 REGIONS = ("picture", "cloud", "rest")
 
 
@@ -162,8 +164,8 @@ def deviations(reference, picture, least=12):
     found = []
     brightest = max(region_mean(reference.mean, r, 1) for r in reference.regions.values() if r)
     for name, region in reference.regions.items():
-        # What is nearly black is so but for pixels that are cut by an edge.
-        if len(region) < least or region_mean(reference.mean, region, 1) < 0.1 * brightest:
+        # What is nearly black is so but for pixels that are cut by an edge; below FAINT nothing is seen, and few paths scatter.
+        if len(region) < least or region_mean(reference.mean, region, 1) < max(0.1 * brightest, FAINT):
             continue
         for channel in range(3):
             mean = region_mean(reference.mean, region, channel)

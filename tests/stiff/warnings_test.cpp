@@ -53,7 +53,8 @@ TEST_CASE("every method reports the accidents that can happen to it") {
                 }
         CHECK(p.report.warnings.empty());
     }
-    met.emplace("fractions_capped");  // of weather data: weather/columns_test
+    met.emplace("fractions_capped");      // of weather data: weather/columns_test
+    met.emplace("particles_uncoloured");  // of particles: law/particle_colours_test
     for (const Accident& accident : accidents()) {
         CAPTURE(std::string(accident.counter));
         CHECK(met.count(accident.counter) == 1);
@@ -84,23 +85,39 @@ TEST_CASE("cells of scattered light that are too thick are told, with their dept
     warn_of_cells(medium, 27, report);
     REQUIRE(report.warnings.size() == 1);
     CHECK(report.warnings[0].find("cells of up to 27 optical depths") != std::string::npos);
+    // Where media absorb, light changes within less.
+    medium.optics[0].albedo[0] = 0.6f;
+    report.warnings.clear();
+    warn_of_cells(medium, 5, report);
+    CHECK(report.warnings.size() == 1);
+    report.warnings.clear();
+    warn_of_cells(medium, 2, report);
+    CHECK(report.warnings.empty());
 }
 
-TEST_CASE("phase functions narrower than what cells hold are told, in deep media") {
-    const auto warned = [](const char* method, const char* g, const char* extinction) {
+TEST_CASE("phase functions narrower than what is kept of light are told") {
+    const auto warned = [](const char* method, const char* g, const char* extinction,
+                           const char* closure) {
         const Picture out = render_sound(by_method(
             method, {std::string("medium.0.phase={type=\"henyey-greenstein\", g=") + g + "}",
-                     std::string("medium.0.extinction_per_m=") + extinction}));
+                     std::string("medium.0.extinction_per_m=") + extinction, closure}));
         for (const std::string& line : out.report.warnings)
             if (line.find("mean cosine 0.97") != std::string::npos) return true;
         return false;
     };
-    for (const char* method : {"collectors", "photon-grid"}) {
-        CAPTURE(method);
-        CHECK(warned(method, "0.97", "0.1"));
-        CHECK_FALSE(warned(method, "0.9", "0.1"));
-        CHECK_FALSE(warned(method, "0.97", "0.002"));
+    for (const auto& [method, closure] :
+         {std::pair<const char*, const char*>{"collectors", "collectors.closure=lobe"},
+          {"photon-grid", "photon_grid.closure=mean"},
+          {"collectors", "collectors.display=billboards"}}) {
+        CAPTURE(closure);
+        CHECK(warned(method, "0.97", "0.1", closure));
+        CHECK_FALSE(warned(method, "0.9", "0.1", closure));
+        CHECK(warned(method, "0.97", "0.002", closure));
+        CHECK_FALSE(warned(method, "0.97", "0.0001", closure));
     }
-    CHECK_FALSE(warned("path", "0.97", "0.1"));
-    CHECK_FALSE(warned("raymarch", "0.97", "0.1"));
+    // Where bands are kept, what turns within the peak goes on as it came.
+    CHECK_FALSE(warned("collectors", "0.97", "0.1", "collectors.closure=sh"));
+    CHECK_FALSE(warned("photon-grid", "0.97", "0.1", "photon_grid.closure=sh"));
+    CHECK_FALSE(warned("path", "0.97", "0.1", "path.guide=true"));
+    CHECK_FALSE(warned("raymarch", "0.97", "0.1", "raymarch.temporal=0"));
 }

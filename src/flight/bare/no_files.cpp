@@ -48,7 +48,8 @@ Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
 Status denoise_film(const Context&, const FrameView&, PathState&) {
     return no_files("filter.kind");
 }
-Status check_importance(const FrameView&) { return no_files("path.importance"); }
+bool asks_for_importance(const Scene&) { return false; }
+const char* why_no_importance(const FrameView&) { return "in a flight"; }
 Status make_importance(const Context&, const FrameView&, const Majorants&, PathImportance&) {
     return no_files("path.importance");
 }

@@ -282,7 +282,9 @@ Status read_particle_volume(const MediumSettings& medium, const std::string& pat
                               volume);
     ParticleSet set;
     PILEUS_TRY(read_placed_particles(medium, path, set, given.particles));
-    return grid_particles(set, cells_of(medium, given, set), threads, volume);
+    PILEUS_TRY(grid_particles(set, cells_of(medium, given, set), threads, volume));
+    if (!set.colour.empty() || !set.emission.empty()) volume.plain = set.count;
+    return Status::ok();
 }
 
 Status read_particle_head(const MediumSettings& medium, const std::string& path,

@@ -24,7 +24,8 @@ struct Volume {
     std::uint64_t clamped = 0;          ///< values below 0 by a little, taken for 0
     std::uint64_t blank = 0;  ///< columns of the file without any value, taken for no cloud
     std::uint64_t capped =
-        0;  ///< cells of the file with more water than their cloud fraction tells
+        0;                    ///< cells of the file with more water than their cloud fraction tells
+    std::uint64_t plain = 0;  ///< particles whose own colour or emission a grid has no place for
 };
 
 /// What a file says about itself before its values are read.

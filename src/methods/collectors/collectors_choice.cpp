@@ -31,7 +31,8 @@ Status plan_deposit(const FrameView& view, CollectorsState& state) {
     if (state.camera_cells > 0) d.mode = kDepositCamera;
     PILEUS_TRY(check_camera_closure("collectors.closure", view, state));
     d.first_order = !splits_first_order(state) ? 0 : (is_marched(state) ? 2 : 1);
-    choose_peak(view, c.peak_deg, state);
+    choose_peak(view, c.peak_deg,
+                is_marched(state) && d.mode == kDepositIncident && !c.closure.lobe, state);
     d.axis_degrees =
         why_no_collectors_axis(view, state) != nullptr
             ? 0

@@ -14,6 +14,7 @@
 #include "src/picture/march_view.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
+#include "src/world/light/behind.h"
 #include "src/world/phase/forward_share.h"
 
 namespace pileus {
@@ -306,20 +307,16 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     o.channels = in.medium->channels > 1 ? 3 : 1;
     o.turn = ordinate_peak();
     o.sunlit = march.sunlit;
-    o.map = light.map;
-    o.has_ground = light.ground.present ? 1 : 0;
-    std::copy_n(nodes.horizon, kHorizon, o.horizon);
-    o.per_horizon = float((kHorizon - 1) / sincos_deg(kOrdinatePeakDeg).sine);
+    o.behind = nodes.behind;
     const bool told = nodes.ground.map.size[0] > 0;
-    const Double3 ground = told ? nodes.ground.sends : light.ground.radiance();
+    set_behind(light, told ? nodes.ground.sends : light.ground.radiance(), o.behind);
+    o.behind.hidden = in.nodes.hidden ? 1 : 0;
     for (std::size_t c = 0; c < 3; ++c) {
         for (int i = 0; i < nodes.media; ++i) {
             o.rest[i][c] = nodes.optics[i][c].rest;
             o.sun[i][c] = march.sun_source[i][c];
         }
         o.beam_rest[c] = nodes.peak.rest[c];
-        o.sky[c] = float(light.sky[c]);
-        o.ground[c] = float(ground[c]);
     }
     return o;
 }

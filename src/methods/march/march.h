@@ -34,6 +34,7 @@ struct RaymarchNodes {
     const OrdinateLevelsView* sky_levels = nullptr;  ///< of `ordinates` of a layer
     /// [3][pixel] of the whole picture: light of solids, of such scenes and with ordinates alone.
     const float* surfaces = nullptr;
+    bool hidden = false;                      ///< a depth image hides some of the picture
     const SkyLightView* sky_light = nullptr;  ///< of the layer; null: each sample marches
 };
 

@@ -68,8 +68,8 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
         in.nodes.ordinates = &light.ordinates.nodes;
     else
         in.nodes.sky = &light.sky.nodes;
-    // What a depth image shows is black, and hides what its neighbours see.
     if (has_meshes(view.lighting)) in.nodes.surfaces = state.picture.planes.background.data();
+    in.nodes.hidden = view.environment.depth.present;
     in.levels = &state.media.coarse;
     in.march_light = state.choice.march_light;
     in.noise = &state.picture.noise;

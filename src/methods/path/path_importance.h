@@ -45,8 +45,10 @@ inline Array<float> importance_lobes() {
 /// Its arrays, for the plan.
 void add_importance_rows(const FrameView& view, MemoryTable& table);
 
-/// kBadInput: what importance does not know of the scene.
-Status check_importance(const FrameView& view);
+/// Whether a scene wants it, by its key or by the samples that its picture takes.
+bool asks_for_importance(const Scene& scene);
+/// Why a scene's paths are traced one by one, in words; null: importance splits them.
+const char* why_no_importance(const FrameView& view);
 
 /// Solves for the view's light, unless that is what `out` has. kLimit: out of memory.
 Status make_importance(const Context& context, const FrameView& view, const Majorants& majorants,

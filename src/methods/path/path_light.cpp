@@ -56,17 +56,14 @@ PathInput path_input(const Context& context, const FrameView& view, const PathSt
     in.jitter = !state.settings.centre;
     in.rules.guide = state.settings.guide;
     in.rules.sun_radius_deg = view.scene.sun.angular_radius_deg;
-    // A flux is measured by paths that seek the sun from a detector.
-    if (state.importance.made && state.camera.flux == 0)
-        in.rules.importance = &state.importance.params;
+    if (state.importance.made) in.rules.importance = &state.importance.params;
     in.parts = path_parts(view.scene.output) || view.lighting.air ||
                (path_regresses(state.filter) && view.lighting.opaque());
     return in;
 }
 
 Status begin_film(const Context& context, const FrameView& view, PathState& state) {
-    if (state.settings.importance && state.camera.flux == 0)
-        PILEUS_TRY(make_importance(context, view, state.majorants, state.importance));
+    if (state.splits) PILEUS_TRY(make_importance(context, view, state.majorants, state.importance));
     const PathInput in = film_input(context, view, state);
     state.tally = tally_of(state);
     state.film.tally = PathTally{};

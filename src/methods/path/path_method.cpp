@@ -31,7 +31,8 @@ PathMethod::PathMethod(const MethodInputs& inputs) {
 
 Status PathMethod::plan(const Context&, const FrameView& view, Plan&) {
     state_.camera = make_camera(view.scene.camera, 0, view.world.medium.low_m);
-    return state_.settings.importance ? check_importance(view) : Status::ok();
+    state_.splits = why_no_importance(view) == nullptr;
+    return Status::ok();
 }
 
 Status PathMethod::prepare(const Context& context, const FrameView& view) {

@@ -42,8 +42,8 @@ void note_sun(const FrameView& view, const PathState& state, Plan& plan) {
         plan.need("the sun's disc");
     else
         plan.leave_out("the sun's disc", "sun.angular_radius_deg = 0");
-    if (state.settings.importance)
-        plan.leave_out("branches towards the sun", "path.importance = true");
+    if (state.splits)
+        plan.leave_out("branches towards the sun", "importance");
     else if (!state.settings.guide)
         plan.leave_out("branches towards the sun", "path.guide = false");
     else if (fit_guide(view.world.medium).on == 0)
@@ -109,16 +109,14 @@ void note_plan(const FrameView& view, const PathState& state, bool keeps_state, 
         plan.leave_out("alpha", "a flat detector: 1 everywhere");
     else
         plan.need("alpha, marched through pixel centres");
-    if (state.settings.importance)
-        plan.need("paths that discrete ordinates split and end");
-    else
-        plan.need("paths");
+    plan.need(state.splits ? "paths that discrete ordinates split and end" : "paths");
+    if (const char* why = why_no_importance(view)) plan.leave_out("importance of paths", why);
     note_light(view, state, plan);
     note_solids(view.world.solids, view.environment.depth, plan);
     note_parts(view, state, keeps_state, plan);
     note_media(view.world.media_plan, plan);
     for (Stage stage : kNotInPaths)
-        if (stage != Stage::kShadow || !state.settings.importance) plan.skip(stage);
+        if (stage != Stage::kShadow || !state.splits) plan.skip(stage);
 }
 
 std::uint64_t film_pixels(const Scene& scene) {
@@ -153,7 +151,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     const int finest = voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2;
     add(t, arrays::path_blocks(grid, state.outlined_only ? finest : state.majorants.block));
     add(t, arrays::path_samples(in));
-    if (state.settings.importance) add_importance_rows(view, t);
+    if (state.splits) add_importance_rows(view, t);
     if (keeps_state)
         t.add("state file", Stage::kPaths, Stage::kPaths,
               path_state_bytes(sums.bytes() + squares.bytes()));
@@ -317,7 +315,7 @@ public:
         report.paths.earlier_scatterings = std::uint64_t(earlier_.scatterings);
         report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
         report.executed.emplace_back("shadow_rays", std::uint64_t(all.shadow_rays));
-        if (!state.settings.importance) return;
+        if (!state.splits) return;
         report.executed.emplace_back("splits", std::uint64_t(all.splits));
         report.executed.emplace_back("unsplit", std::uint64_t(all.unsplit));
         if (state.importance.made) tell_ordinates(state.importance.nodes, report);

@@ -28,7 +28,8 @@ struct PathState {
     Film film;
     bool begun = false;  ///< the film is that of the view
     PathScratch scratch;
-    PathImportance importance;  ///< with settings.importance alone
+    bool splits = false;        ///< paths by importance
+    PathImportance importance;  ///< where it splits alone
     PathTally tally{};          ///< of all films before this one
     bool interrupted = false;
 };

@@ -44,7 +44,7 @@ void choose_numbers(const FrameView& view, PhotonGridState& state) {
     d.coefficients = d.bands * d.bands + axis_numbers(d);
     if (s.closure == GridClosure::kPublished) d.mode = kDepositCosine, d.coefficients = 2;
     if (s.closure == GridClosure::kCamera) d.mode = kDepositCamera, d.coefficients = 1;
-    choose_peak(view, s.peak_deg, state);
+    choose_peak(view, s.peak_deg, s.closure == GridClosure::kSh, state);
 }
 
 /// Decides what a collision stores, and proves that the sums hold it. What a budget may add counts

@@ -10,7 +10,6 @@ namespace support_rows {
 
 constexpr Support exact(const char* text = "") { return {SupportLevel::kExact, text, ""}; }
 constexpr Support bounded(const char* text) { return {SupportLevel::kBounded, text, ""}; }
-constexpr Support ignored(const char* text) { return {SupportLevel::kIgnored, text, ""}; }
 
 /// Without words: "not for method NAME".
 constexpr Support refused(const char* text = "", const char* allowed = "") {

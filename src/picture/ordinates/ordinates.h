@@ -104,7 +104,7 @@ struct OrdinateGround {
 struct OrdinateNodes : OrdinateCells {
     std::array<int, 3> within{1, 1, 1};  ///< samples of a node, along each axis
     Beam peak;                           ///< of the sun's light, turned within the peak
-    float horizon[kHorizon] = {};        ///< OrdinatesMarchParams::horizon
+    BehindView behind{};                 ///< without lights
     double depth = 0;                    ///< node_depth()
     std::vector<OrdinateSet> sets;
     std::vector<OrdinateShown> shown;  ///< as `light` and `near` hold them

@@ -82,6 +82,13 @@ struct ValueCheck {
         return fault(node, later ? "not in this version" : "unknown value");
     }
 
+    /// A text, or true and false where they are among a row's choices.
+    bool choice(const Node& node) const {
+        const bool flag =
+            node.kind == NodeKind::kBool && place_in(row.allowed.choices, choice_text(node)) >= 0;
+        return flag || text(node);
+    }
+
     /// A density that is none of the names is the path of a file.
     bool density(const Node& node) const {
         if (!text(node)) return false;
@@ -129,8 +136,9 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
         case KeyKind::kBounds:
             return check.bounds(node);
         case KeyKind::kText:
-        case KeyKind::kChoice:
             return check.text(node);
+        case KeyKind::kChoice:
+            return check.choice(node);
         case KeyKind::kTexts:
             return check.texts(node);
         case KeyKind::kIndexOrText:

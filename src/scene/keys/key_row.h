@@ -90,5 +90,7 @@ std::string allowed_text(const KeyRow& row);
 /// Elements of a list parted by '|', and the place of one of them; -1 where it is none.
 std::vector<std::string_view> split_list(const char* list);
 int place_in(const char* list, std::string_view text);
+/// A choice as a text; flags are "true" and "false".
+std::string choice_text(const Node& node);
 
 }  // namespace pileus

@@ -43,6 +43,11 @@ std::vector<std::string_view> split_list(const char* list) {
     }
 }
 
+std::string choice_text(const Node& node) {
+    if (node.kind != NodeKind::kBool) return node.text;
+    return node.flag ? "true" : "false";
+}
+
 int place_in(const char* list, std::string_view text) {
     int place = 0;
     for (std::string_view part : split_list(list)) {
@@ -59,7 +64,9 @@ Node value_of(const KeyRow& row, const KeySource& source) {
     const std::vector<std::string_view> names = split_list(row.allowed.choices);
     const std::size_t place =
         value.kind == NodeKind::kBool ? std::size_t(value.flag) : std::size_t(value.integer);
-    return place < names.size() ? node_of(std::string(names[place])) : value;
+    if (place >= names.size()) return value;
+    const std::string name(names[place]);
+    return name == "true" || name == "false" ? node_of(name == "true") : node_of(name);
 }
 
 Node default_value(const KeyRow& row) {
@@ -69,7 +76,7 @@ Node default_value(const KeyRow& row) {
 void set_value(const KeyRow& row, const KeyTarget& target, const Node& node) {
     if (row.field.set == nullptr) return;
     if (row.kind() != KeyKind::kChoice) return row.field.set(target, node);
-    Node place = node_of(place_in(row.allowed.choices, node.text));
+    Node place = node_of(place_in(row.allowed.choices, choice_text(node)));
     place.flag = place.integer > 0;
     row.field.set(target, place);
 }

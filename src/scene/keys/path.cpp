@@ -22,9 +22,11 @@ constexpr KeyRow kRows[] = {
      "the other methods send theirs"},
     {"path.guide", path<&PathSettings::guide>, any(), "",
      "seeks the sun's light by branches near its direction where a phase function is peaked"},
-    {"path.importance", path<&PathSettings::importance>, any(), "",
+    {"path.importance", path<&PathSettings::importance>, one_of("auto|true|false"), "",
      "splits paths where discrete ordinates expect much light and ends them where they expect "
-     "little; without bias, for one medium of Henyey-Greenstein's phase function and one albedo"},
+     "little, without bias: true wherever they know the scene (one medium of Henyey-Greenstein's "
+     "phase function and one albedo), auto where g is 0.75 or more and the picture takes 8 million "
+     "samples or more, so that it pays"},
     {"path.target_error", path<&PathSettings::target_error>, from_to(0, 1), "",
      "ends where the standard error over the radiance, its mean over the cloud's "
      "pixels, is no more than this; 0: after samples_per_pixel"},

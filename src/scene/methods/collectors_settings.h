@@ -42,7 +42,7 @@ struct CollectorSettings {
     int generations = 50;
     bool paper = false;  ///< variant = "paper"
     bool local_tracking = true;
-    double peak_deg = 20;  ///< scatterings within it are the sun's own light; [0, 90]
+    double peak_deg = 12;  ///< scatterings within it are the sun's own light; [0, 90]
     bool first_order_split = true;
     CollectorPlacement placement;
     CollectorClosure closure;

@@ -19,7 +19,7 @@ struct PhotonGridSettings {
     GridClosure closure = GridClosure::kSh;
     int bands = 4;         ///< closure = "sh"; 1..8
     int axis_degrees = 8;  ///< closure = "sh"
-    double peak_deg = 20;  ///< as CollectorSettings::peak_deg
+    double peak_deg = 12;  ///< as CollectorSettings::peak_deg
     bool local_tracking = true;
     bool first_order_split = true;
     NodeDirections directions = NodeDirections::kNear;  ///< never kAll

@@ -307,7 +307,7 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
                   const KernelTable* kernels, const HostMedia& given) {
     MediaList list;
-    std::uint64_t missing = 0, clamped = 0, blank = 0, capped = 0;
+    std::uint64_t missing = 0, clamped = 0, blank = 0, capped = 0, plain = 0;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
         PILEUS_TRY(
@@ -316,6 +316,7 @@ Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& p
         clamped += medium.volume.clamped;
         blank += medium.volume.blank;
         capped += medium.volume.capped;
+        plain += medium.volume.plain;
         PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));
     }
     const MixGrid grid = list.plan_grid(limits, plan);
@@ -324,6 +325,7 @@ Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& p
     out.volume.clamped = clamped;
     out.volume.blank = blank;
     out.volume.capped = capped;
+    out.volume.plain = plain;
     return Status::ok();
 }
 
