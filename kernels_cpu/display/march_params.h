@@ -106,6 +106,7 @@ struct MarchParams {
     float sun_travel[3];
     float sun_source[kMaxMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
     float constant[3];  ///< source everywhere in the media: sky by the furnace identity
+    float least[3];  ///< of what nodes beside the camera send, that with the constant none is < 0
     NodeGrid shadow, source;
     std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
     std::int32_t bands;     ///< 0; or nodes hold bands*bands harmonics of what goes each way

@@ -14,7 +14,7 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 6;
+constexpr std::uint64_t kFormat = 7;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
 constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24, kDigestAt = 24;
 
@@ -89,8 +89,6 @@ Status check_packable(const Scene& scene) {
     if (is_of_collectors(method_column(scene)) &&
         scene.collectors.display.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
-    if (method_column(scene) == MethodColumn::kPath && asks_for_importance(scene))
-        return refuse(scene, "path.importance", "not packed", "false");
     if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)
         return refuse(scene, "filter.kind", "not packed", "none, regression");
     return Status::ok();
@@ -212,6 +210,8 @@ void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::st
 
 Status pack_scene(const Scene& given, const World& world, std::string& bytes) {
     PILEUS_TRY(check_packable(given));
+    if (method_column(given) == MethodColumn::kPath && asks_for_importance(given, world))
+        return refuse(given, "path.importance", "not packed", "false");
     Scene scene = given;
     PILEUS_TRY(place_camera(scene));
     Image sky;

@@ -39,6 +39,16 @@ void set_rest(const Medium& medium, const Beam& beam, float (&rest)[kMaxMedia][3
                 float(1 - double(medium.optics[std::size_t(i)].albedo[c]) * beam.shares[i]);
 }
 
+/// Of extinction what counts in every medium.
+double least_rest(const Medium& medium, const Beam& beam, std::size_t channel) {
+    double least = 1;
+    for (int i = 0; i < medium.count; ++i) {
+        const double albedo = double(medium.optics[std::size_t(i)].albedo[channel]);
+        least = std::min(least, 1 - albedo * beam.shares[i]);
+    }
+    return least;
+}
+
 SunTurn turn_of(const FrameView& view, const PhotonState& state) {
     return turn_of_sun(view, state.shadow.light_refresh, state.picture.turn);
 }
@@ -232,6 +242,13 @@ void add_picture_rows(const Context& context, const FrameView& view, const Photo
                      context.frames > 1 ? Stage::kWrite : Stage::kDisplay, table);
 }
 
+float least_light(const FrameView& view, const PhotonState& state, const Lighting& light,
+                  std::size_t channel) {
+    const bool apart = state.lights.deposit.apart;
+    const double share = apart ? least_rest(view.world.medium, state.shadow.beam, channel) : 1.0;
+    return -float(share * light.constant[channel]);
+}
+
 namespace {
 
 /// Turns within the peak go on as they came.
@@ -260,6 +277,7 @@ MarchParams lit_march_params(const FrameView& view, const PhotonState& state, co
     for (std::size_t c = 0; c < 3; ++c) {
         k.sun_travel[c] = -light.to_sun[c];
         k.constant[c] = float(light.constant[c]);
+        k.least[c] = least_light(view, state, light, c);
     }
     for (int i = 0; i < view.world.medium.count; ++i) {
         const Optics& optics = view.world.medium.optics[std::size_t(i)];

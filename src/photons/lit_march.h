@@ -86,6 +86,10 @@ Status check_thinned(const Scene& scene, const char* method, const PhotonState& 
 void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,
                       MemoryTable& table);
 
+/// Least light of a node that is none less than none beside the constant of the furnace identity.
+float least_light(const FrameView& view, const PhotonState& state, const Lighting& light,
+                  std::size_t channel);
+
 /// What all marches of a picture share.
 MarchParams lit_march_params(const FrameView& view, const PhotonState& state, const LightInput& lit,
                              const NodeGrid& source);

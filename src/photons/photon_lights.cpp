@@ -137,6 +137,7 @@ const char* why_no_peak(const FrameView& view, double peak_deg, bool harmonics,
     const Medium& medium = view.world.medium;
     if (!(peak_deg > 0)) return "switched off";
     const DepositPlan& deposit = state.lights.deposit;
+    if (!harmonics && !has_axes(state.lights.lighting)) return "no sun";
     // The first order of lamps is always the march's.
     if (state.lights.lighting.sunlit ? deposit.first_order != 2 : deposit.mode == kDepositOutgoing)
         return "the march does not show the first order";
@@ -160,6 +161,7 @@ void choose_peak(const FrameView& view, double peak_deg, bool harmonics, PhotonS
     DepositPlan& deposit = state.lights.deposit;
     deposit.peak_turn = peak ? turn_of_deg(peak_deg) : 0;
     deposit.peak_deg = peak ? peak_deg : 0;
+    deposit.by_bands = harmonics;
     deposit.apart = peak && harmonics;
     const Medium& medium = view.world.medium;
     for (int i = 0; i < medium.count && deposit.apart; ++i) {

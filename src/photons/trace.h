@@ -18,13 +18,14 @@ namespace pileus {
 struct DepositPlan {
     std::int32_t mode = kDepositIncident;
     int bands = 4;
-    int first_order = 0;   ///< see TraceParams
-    int axis_degrees = 0;  ///< see TraceParams
-    int axes = 1;          ///< see TraceParams
-    int lamp_axis = 0;     ///< see TraceParams
-    float peak_turn = 0;   ///< see TraceParams
-    double peak_deg = 0;   ///< the same as an angle
-    bool apart = false;    ///< what turns within it goes on as it came: MarchParams::apart
+    int first_order = 0;    ///< see TraceParams
+    int axis_degrees = 0;   ///< see TraceParams
+    int axes = 1;           ///< see TraceParams
+    int lamp_axis = 0;      ///< see TraceParams
+    float peak_turn = 0;    ///< see TraceParams
+    double peak_deg = 0;    ///< the same as an angle
+    bool by_bands = false;  ///< marched nodes hold bands
+    bool apart = false;     ///< what turns within it goes on as it came: MarchParams::apart
     float kept[kMaxMedia][kMaxBands + kMaxAxisDegrees] = {};  ///< moments of that
     int coefficients = 16;                                    ///< per collector and channel
     int channels = 0;  ///< that photons tell apart, 1 or 3; 0: as many as the medium

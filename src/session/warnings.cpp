@@ -117,7 +117,8 @@ double most_decay(const Medium& medium) {
         const Optics& optics = medium.optics[std::size_t(i)];
         const double g = double(phase_moment(optics.phase, 1));
         for (const float albedo : optics.albedo)
-            most = std::max(most, 3 * (1 - double(albedo)) * (1 - double(albedo) * g));
+            if (albedo > 0)
+                most = std::max(most, 3 * (1 - double(albedo)) * (1 - double(albedo) * g));
     }
     return __builtin_sqrt(most);
 }

@@ -177,3 +177,22 @@ TEST_CASE("importance: by itself where the samples of a picture pay for its solu
                 "medium.0.phase={type=\"henyey-greenstein\", g=0.5}"}) ==
           "light is scattered too evenly");
 }
+
+TEST_CASE("importance: a part of a picture is traced as the whole is") {
+    // 8 million samples of the whole, fewer of a part.
+    Scene scene = importance_scene(true, {"path.samples_per_pixel=400000"});
+    scene.path.importance = ImportanceUse::kAuto;
+    RenderOptions options;
+    options.budget.samples = 1;
+    const Picture whole = render_one(scene, options);
+    REQUIRE(why_without(whole) == "");
+    const std::array<int, 2> size = scene.camera.resolution;
+    REQUIRE(double(size[0]) * size[1] * 400000 > 8e6);
+    scene.crop = {size[0] / 4, size[1] / 4, 2, 2};
+    REQUIRE(4 * 400000 < 8e6);
+    const Picture part = render_one(scene, options);
+    CHECK(why_without(part) == "");
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x)
+            CHECK(part.at("G", x, y) == whole.at("G", x + size[0] / 4, y + size[1] / 4));
+}

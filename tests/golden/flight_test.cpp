@@ -92,7 +92,7 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"feefb727d816c5b6", "716b9f1298efaadf", "552f9e64d7e3c6f6", "491810229785debb"}},
+     {"fc9df4691afd3f39", "71c8bc869911c40c", "b36d8158e1b9f053", "916714975650e186"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"

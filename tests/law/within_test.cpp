@@ -47,8 +47,8 @@ TEST_CASE("within a medium: nodes around the camera show each ray its own light,
     const double paths = mean({"method.name=path"});
     const double line = mean({"collectors.directions=camera"}), near = mean({}),
                  all = mean({"collectors.directions=all"});
-    // The light along the line to the camera is wrong by a fifth. Farther nodes change 2 % at most;
-    // what is left are leaves as high as half the layer (docs/collectors.md, "From within").
+    // The light along the line to the camera is wrong by a seventh. Farther nodes change 2 % at
+    // most; what is left are leaves as high as half the layer (docs/collectors.md, "From within").
     CHECK(line / paths < 0.9);
     CHECK(std::fabs(near / paths - 1) < 0.1);
     CHECK(std::fabs(near / all - 1) < 0.02);

@@ -159,8 +159,11 @@ def region_mean(picture, region, channel):
     return sum(picture[i][channel] for i in region) / len(region)
 
 
-def deviations(reference, picture, least=12):
-    """(region, channel, share of the mean, its standard error) of each region of at least `least` pixels."""
+WIDEST = 0.2
+
+
+def deviations(reference, picture, least=12, widest=WIDEST):
+    """(region, channel, share of the mean, its standard error) of each region of at least `least` pixels, where that error is no more than `widest`."""
     found = []
     brightest = max(region_mean(reference.mean, r, 1) for r in reference.regions.values() if r)
     for name, region in reference.regions.items():
@@ -170,7 +173,7 @@ def deviations(reference, picture, least=12):
         for channel in range(3):
             mean = region_mean(reference.mean, region, channel)
             error = math.sqrt(sum(reference.variance[i][channel] for i in region)) / len(region)
-            if mean <= 0 or error > 0.2 * mean:
+            if mean <= 0 or error > widest * mean:
                 continue
             found.append((name, channel, region_mean(picture, region, channel) / mean - 1, error / mean))
     return found

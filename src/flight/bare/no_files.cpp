@@ -48,7 +48,7 @@ Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
 Status denoise_film(const Context&, const FrameView&, PathState&) {
     return no_files("filter.kind");
 }
-bool asks_for_importance(const Scene&) { return false; }
+bool asks_for_importance(const Scene&, const World&) { return false; }
 const char* why_no_importance(const FrameView&) { return "in a flight"; }
 Status make_importance(const Context&, const FrameView&, const Majorants&, PathImportance&) {
     return no_files("path.importance");

@@ -58,7 +58,7 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     // Light that is scattered forward on its way has not faded.
     options.sun_fades = 1 - mean_cosine(view.world.medium);
     options.bounded = shows_harmonics(view, state) ? 0 : 3;
-    for (std::size_t c = 0; c < 3; ++c) options.least[c] = -float(light.constant[c]);
+    for (std::size_t c = 0; c < 3; ++c) options.least[c] = least_light(view, state, light, c);
     return splat_colours(state.prepared.collectors.span(), colour, numbers, nodes, options,
                          context.threads, state.source);
 }

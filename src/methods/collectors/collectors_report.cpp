@@ -38,7 +38,7 @@ std::uint64_t coefficients_of(const CollectorsState& state) {
 
 void explain_deposit(const FrameView& view, const CollectorsState& state, Plan& plan) {
     if (const char* why =
-            why_no_peak(view, state.settings.peak_deg, state.lights.deposit.apart, state))
+            why_no_peak(view, state.settings.peak_deg, state.lights.deposit.by_bands, state))
         plan.leave_out("the beam's peak", why);
     explain_axis(why_no_collectors_axis(view, state), state, plan);
     explain_split(splits_first_order(state), state, plan);

@@ -45,8 +45,10 @@ inline Array<float> importance_lobes() {
 /// Its arrays, for the plan.
 void add_importance_rows(const FrameView& view, MemoryTable& table);
 
-/// Whether a scene wants it, by its key or by the samples that its picture takes.
-bool asks_for_importance(const Scene& scene);
+/// Whether a scene has it, as its files say.
+bool asks_for_importance(const Scene& scene, const World& world);
+/// Whether a view may come to have it, as a host sets lights and cameras.
+bool may_have_importance(const FrameView& view);
 /// Why a scene's paths are traced one by one, in words; null: importance splits them.
 const char* why_no_importance(const FrameView& view);
 

@@ -151,7 +151,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     const int finest = voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2;
     add(t, arrays::path_blocks(grid, state.outlined_only ? finest : state.majorants.block));
     add(t, arrays::path_samples(in));
-    if (state.splits) add_importance_rows(view, t);
+    if (state.splits || (state.live && may_have_importance(view))) add_importance_rows(view, t);
     if (keeps_state)
         t.add("state file", Stage::kPaths, Stage::kPaths,
               path_state_bytes(sums.bytes() + squares.bytes()));

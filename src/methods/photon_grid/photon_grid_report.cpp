@@ -14,7 +14,7 @@ constexpr Stage kUnused[] = {Stage::kPaths, Stage::kSamples, Stage::kTree, Stage
 void explain_deposit(const FrameView& view, const PhotonGridState& state, Plan& plan) {
     explain_axis(why_no_grid_axis(view, state), state, plan);
     if (const char* why =
-            why_no_peak(view, state.settings.peak_deg, state.lights.deposit.apart, state))
+            why_no_peak(view, state.settings.peak_deg, state.lights.deposit.by_bands, state))
         plan.leave_out("the beam's peak", why);
     explain_split(state.lights.deposit.first_order != 0, state, plan);
 }

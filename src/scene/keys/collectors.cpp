@@ -44,7 +44,7 @@ constexpr KeyRow kRows[] = {
      "only"},
     {"collectors.peak_deg", collectors<&CollectorSettings::peak_deg>, from_to(0, 90), "deg",
      "scatterings that turn light of sun and lamps by less stay in its beam, which the march shows "
-     "by small-angle theory; 0: none do"},
+     "by small-angle theory, and other light goes on as it came; 0: none do"},
     {"collectors.samples", placement<&CollectorPlacement::samples>, from_to(1, 10000000), "",
      "points from which the collectors are grown"},
     {"collectors.tracking", kTracking, one_of("local|global"), "",

@@ -36,7 +36,7 @@ constexpr KeyRow kRows[] = {
      "directions of the sun and of four lamps, up to degree 15"},
     {"photon_grid.peak_deg", grid<&PhotonGridSettings::peak_deg>, from_to(0, 90), "deg",
      "scatterings that turn light of sun and lamps by less stay in its beam, which the march shows "
-     "by small-angle theory; 0: none do"},
+     "by small-angle theory, and other light goes on as it came; 0: none do"},
     {"photon_grid.tracking", kTracking, one_of("local|global"), "",
      "majorant of the free flights: one per block of cells, or one for all"},
     {"photon_grid.first_order_split", grid<&PhotonGridSettings::first_order_split>, any(), "",
