@@ -188,7 +188,7 @@ TEST_CASE("importance: a part of a picture is traced as the whole is") {
     REQUIRE(why_without(whole) == "");
     const std::array<int, 2> size = scene.camera.resolution;
     REQUIRE(double(size[0]) * size[1] * 400000 > 8e6);
-    scene.crop = {size[0] / 4, size[1] / 4, 2, 2};
+    scene.crop = {size[0] / 4, size[1] / 4, size[0] / 4 + 2, size[1] / 4 + 2};
     REQUIRE(4 * 400000 < 8e6);
     const Picture part = render_one(scene, options);
     CHECK(why_without(part) == "");
