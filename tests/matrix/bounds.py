@@ -18,6 +18,13 @@ FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
 KNOWN = [
     ("collectors", {"periodic", "no-resolution", "thick"}, "a deck of 100 optical depths seen along its top"),
     ("collectors-billboards", {"inside"}, "boards that the camera is in"),
+    ("particles", {"inside"}, "a particle that the camera is in has one value of light"),
+    ("particles-billboards", {"inside"}, "boards that the camera is in"),
+    ("particles", {"down"}, "little light comes straight up, and few harmonics ring"),
+    ("particles-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
+    ("particles-billboards", {"map-patch"}, "a bright patch seen through boards"),
+    ("collectors-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
+    ("raymarch", {"inside", "coloured"}, "deep within a colour that is absorbed"),
     ("raymarch", {"solid", "periodic"}, "walls on the ground below a deck"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
      for column in ("collectors", "photon-grid", "optical-depth")

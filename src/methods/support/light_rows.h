@@ -23,7 +23,7 @@ constexpr FeatureRow kLightRows[] = {
         "cumulus, cirrus and stratocumulus against paths and independent codes",
         bounded("-2.5 to +1.5 % of the picture's mean; -9 to +5 % of media on cells above one "
                 "optical depth; boxes whose faces a sun grazes are half as bright there"),
-        bounded("-0.4 to +1.2 % of the picture's mean, -7 to +5 % of the medium's"),
+        bounded("-0.4 to +1.2 % of the picture's mean, -7 to +5 % of the medium's; boxes -18 %"),
         bounded("-2.9 to +0.7 % of the picture's mean; of media as collectors"), exact("0.2 %"),
         bounded("-5 to +5 % of the mean; grazing light or views of thick decks -12 to +9 %"),
         bounded("by design: -15 to -95 % of the mean; what is below to +15 %"),

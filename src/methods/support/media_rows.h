@@ -82,7 +82,7 @@ constexpr FeatureRow kMediaRows[] = {
         "sh g above 0.95 a third too dark along thin decks and several times too bright where "
         "little light gets to, with a warning",
         bounded("by angle -6 to +6 %; g above 0.95 along thin decks -24 %"),
-        bounded("by angle -6 to +13 %"), bounded("as collectors"), exact("0.9 % below 176 deg"),
+        bounded("by angle -19 to +26 %"), bounded("as collectors"), exact("0.9 % below 176 deg"),
         bounded("-5 to +5 %; octaves by angle -52 to +56 %"),
         bounded("as the sun: its own g, docs/optical-depth.md"),
         bounded("as the sun; +7 %; g above 0.95 +44 %, with a warning"), bounded("as particles"),
