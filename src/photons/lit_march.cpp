@@ -35,17 +35,15 @@ NodeGrid shadow_grid(const FrameView& view) {
 void set_rest(const Medium& medium, const Beam& beam, float (&rest)[kMaxMedia][3]) {
     for (int i = 0; i < medium.count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            rest[i][c] =
-                float(1 - double(medium.optics[std::size_t(i)].albedo[c]) * beam.shares[i]);
+            rest[i][c] = float(counting_share(medium.optics[std::size_t(i)], c, beam.shares[i]));
 }
 
 /// Of extinction what counts in every medium.
 double least_rest(const Medium& medium, const Beam& beam, std::size_t channel) {
     double least = 1;
-    for (int i = 0; i < medium.count; ++i) {
-        const double albedo = double(medium.optics[std::size_t(i)].albedo[channel]);
-        least = std::min(least, 1 - albedo * beam.shares[i]);
-    }
+    for (int i = 0; i < medium.count; ++i)
+        least =
+            std::min(least, counting_share(medium.optics[std::size_t(i)], channel, beam.shares[i]));
     return least;
 }
 
@@ -64,7 +62,7 @@ Status make_beam_tables(const Context& context, const FrameView& view, PhotonSta
     const bool points = beam_of_points(view, state);
     if (!(peak_turn > 0) || (beam.sets > 0 && (beam.points || !points))) return Status::ok();
     const StageClock clock(context, "shadow");
-    const bool apart = state.lights.deposit.apart;
+    const bool apart = state.lights.deposit.apart();
     PILEUS_TRY(make_beam(view.world.medium, peak_turn, points,
                          apart ? BeamTurns::kPeak : BeamTurns::kAll, context.threads,
                          Stage::kShadow, beam));
@@ -244,7 +242,7 @@ void add_picture_rows(const Context& context, const FrameView& view, const Photo
 
 float least_light(const FrameView& view, const PhotonState& state, const Lighting& light,
                   std::size_t channel) {
-    const bool apart = state.lights.deposit.apart;
+    const bool apart = state.lights.deposit.apart();
     const double share = apart ? least_rest(view.world.medium, state.shadow.beam, channel) : 1.0;
     return -float(share * light.constant[channel]);
 }
@@ -288,7 +286,7 @@ MarchParams lit_march_params(const FrameView& view, const PhotonState& state, co
     k.beam_sets =
         lit.first_order_alone || state.lights.deposit.first_order != 2 ? 0 : state.shadow.beam.sets;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = state.shadow.beam.rest[c];
-    if (state.lights.deposit.apart && !lit.first_order_alone) set_apart(view, state, light, k);
+    if (state.lights.deposit.apart() && !lit.first_order_alone) set_apart(view, state, light, k);
     k.shadow = state.shadow.nodes;
     k.source = source;
     k.channels = 3;
@@ -354,7 +352,7 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
         lit.first_order_alone || !(lamp_peak_turn(state.lights.deposit) > 0) ? 0 : beam.sets;
     k.beam_points = beam.points ? 1 : 0;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = beam.rest[c];
-    if (state.lights.deposit.apart && !lit.first_order_alone) {
+    if (state.lights.deposit.apart() && !lit.first_order_alone) {
         k.ordinates = medium.channels;
         k.peak_turn = state.lights.deposit.peak_turn;
         set_rest(medium, beam, k.rest);

@@ -162,9 +162,8 @@ void choose_peak(const FrameView& view, double peak_deg, bool harmonics, PhotonS
     deposit.peak_turn = peak ? turn_of_deg(peak_deg) : 0;
     deposit.peak_deg = peak ? peak_deg : 0;
     deposit.by_bands = harmonics;
-    deposit.apart = peak && harmonics;
     const Medium& medium = view.world.medium;
-    for (int i = 0; i < medium.count && deposit.apart; ++i) {
+    for (int i = 0; i < medium.count && deposit.apart(); ++i) {
         const std::vector<double> kept =
             peak_moments(medium.optics[std::size_t(i)].phase, deposit.peak_turn);
         for (std::size_t l = 0; l < kMaxBands + kMaxAxisDegrees; ++l)

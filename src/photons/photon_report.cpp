@@ -201,7 +201,7 @@ FinishedParts PhotonReport::finished() const {
     FinishedParts parts;
     parts.batches = true;
     parts.cell_m = photons_.photons().cell_m;
-    parts.wide = parts.cell_m > 0 && !photons_.photons().lights.deposit.apart;
+    parts.wide = parts.cell_m > 0 && !photons_.photons().lights.deposit.apart();
     return parts;
 }
 

@@ -151,7 +151,8 @@ bool has_axes(const Lighting& lighting);
 void choose_axes(const FrameView& view, PhotonState& state);
 
 /// Decides deposit.peak_turn: light of the sun and of lamps scattered within so many degrees is
-/// kept apart from the photons' deposits, where the march shows the first order of one medium.
+/// kept apart from the photons' deposits, where the march shows the first order; of several media
+/// with `harmonics` alone, bands on marched nodes, whose light from all around it is apart in, too.
 void choose_peak(const FrameView& view, double peak_deg, bool harmonics, PhotonState& state);
 /// Why there is none; null: there is.
 const char* why_no_peak(const FrameView& view, double peak_deg, bool harmonics,

@@ -18,20 +18,22 @@ namespace pileus {
 struct DepositPlan {
     std::int32_t mode = kDepositIncident;
     int bands = 4;
-    int first_order = 0;    ///< see TraceParams
-    int axis_degrees = 0;   ///< see TraceParams
-    int axes = 1;           ///< see TraceParams
-    int lamp_axis = 0;      ///< see TraceParams
-    float peak_turn = 0;    ///< see TraceParams
-    double peak_deg = 0;    ///< the same as an angle
-    bool by_bands = false;  ///< marched nodes hold bands
-    bool apart = false;     ///< what turns within it goes on as it came: MarchParams::apart
+    int first_order = 0;                                      ///< see TraceParams
+    int axis_degrees = 0;                                     ///< see TraceParams
+    int axes = 1;                                             ///< see TraceParams
+    int lamp_axis = 0;                                        ///< see TraceParams
+    float peak_turn = 0;                                      ///< see TraceParams
+    double peak_deg = 0;                                      ///< the same as an angle
+    bool by_bands = false;                                    ///< marched nodes hold bands
     float kept[kMaxMedia][kMaxBands + kMaxAxisDegrees] = {};  ///< moments of that
     int coefficients = 16;                                    ///< per collector and channel
     int channels = 0;  ///< that photons tell apart, 1 or 3; 0: as many as the medium
     int places = 16;   ///< binary places of the sums
     float camera[3] = {0, 0, 0};
     bool orthographic = false;
+
+    /// Whether what turns within the peak goes on as it came: MarchParams::apart.
+    bool apart() const { return by_bands && peak_turn > 0; }
 };
 
 /// Numbers beyond the bands, about all axes.

@@ -111,7 +111,7 @@ void warn_of_narrow(const Medium& medium, Report& report) {
 }
 
 /// Most that diffuse light decays by in an optical depth, in diffusion: sqrt(3 (1 - a) (1 - a g)).
-double most_decay(const Medium& medium) {
+double max_decay(const Medium& medium) {
     double most = 0;
     for (int i = 0; i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
@@ -130,7 +130,7 @@ void warn_of_cells(const Medium& medium, double cell_m, Report& report) {
     // Where media absorb, light changes within the depth that it diffuses to.
     constexpr double kMaxDiffusion = 2.5;
     const double depth = max_extinction(medium) * cell_m;
-    if (!(depth > kMaxDepth || depth * most_decay(medium) > kMaxDiffusion)) return;
+    if (!(depth > kMaxDepth || depth * max_decay(medium) > kMaxDiffusion)) return;
     report.warnings.push_back(
         "media: scattered light has one value in cells of up to " + number_text(depth, 3) +
         " optical depths: thick rims may be darker by a third and more (finer cells by "

@@ -65,8 +65,10 @@ PathInput path_input(const Context& context, const FrameView& view, const PathSt
 Status begin_film(const Context& context, const FrameView& view, PathState& state) {
     // A host may have set other lights or another camera.
     state.splits = why_no_importance(view) == nullptr;
-    if (!state.splits) state.importance.made = false;
-    if (state.splits) PILEUS_TRY(make_importance(context, view, state.majorants, state.importance));
+    if (state.splits)
+        PILEUS_TRY(make_importance(context, view, state.majorants, state.importance));
+    else
+        state.importance.made = false;
     const PathInput in = film_input(context, view, state);
     state.tally = tally_of(state);
     state.film.tally = PathTally{};

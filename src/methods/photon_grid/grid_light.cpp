@@ -26,7 +26,7 @@ CellOptics optics_of(const GridLightInput& in, std::size_t cell) {
     for (std::size_t c = 0; c < 3; ++c) {
         Mixture& mix = out.mix[c];
         mix.medium = in.medium;
-        if (in.deposit.apart) mix.apart = &in.deposit;
+        if (in.deposit.apart()) mix.apart = &in.deposit;
         for (std::size_t i = 0; i < count; ++i) {
             const float share = count == 1 ? 1.0f : in.shares[cell * count + i];
             mix.weight[i] = share * m.optics[i].albedo[c];

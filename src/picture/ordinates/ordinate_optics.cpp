@@ -23,7 +23,7 @@ float ordinate_peak() { return turn_of_deg(kOrdinatePeakDeg); }
 OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f) {
     const double albedo = double(optics.albedo[std::size_t(channel)]);
     OrdinateOptics out;
-    out.rest = float(1 - albedo * f);
+    out.rest = float(counting_share(optics, std::size_t(channel), f));
     out.albedo = out.rest > kMinRest ? float(albedo * (1 - f) / double(out.rest)) : 1.0f;
     double moment[4] = {1, 0, 0, 0};
     for (int l = 1; l < 4 && 1 - f > 1e-6; ++l)

@@ -37,6 +37,11 @@ inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
 /// 1 - cos of an angle in degrees.
 float turn_of_deg(double deg);
 
+/// Share of an extinction that counts where turns within the peak do not, `share` of them.
+inline double counting_share(const Optics& optics, std::size_t channel, double share) {
+    return 1 - double(optics.albedo[channel]) * share;
+}
+
 /// Legendre moments c_l of a phase function within its peak, w p of width `peak_turn` (1 - cos), as
 /// many as count.
 std::vector<double> peak_moments(const PhaseParams& phase, float peak_turn);

@@ -16,7 +16,7 @@ constexpr double kPerSphere = 0.079577471545947667884;  // 1 / 4 pi
 Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_t channel) {
     Mixture mix;
     mix.medium = in.medium;
-    if (in.deposit.apart) mix.apart = &in.deposit;
+    if (in.deposit.apart()) mix.apart = &in.deposit;
     const std::size_t count = std::size_t(in.medium->count);
     for (std::size_t i = 0; i < count; ++i) {
         const float share = count == 1 ? 1.0f : in.shares[collector * count + i];
