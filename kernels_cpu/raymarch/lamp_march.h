@@ -12,6 +12,7 @@
 #include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
+#include "kernels_cpu/solids/solids.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -267,32 +268,71 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
         });
 }
 
-/// Light of the lamps that the ground sends along rays which meet it `depth` metres away. `turn`:
-/// of the places on spheres.
+/// What a ray ends at: the ground, or a solid before it.
+template <class T>
+struct LampSurface {
+    M_of<T> met;
+    Vec<T> at, normal;
+    T albedo[3];
+};
+
+/// Of rays that end `opaque` metres away, unless a depth image has something nearer there.
+template <class T>
+PILEUS_FN LampSurface<T> lamp_surface(const LampMarchParams& k, const Ray<T>& ray, T opaque,
+                                      M_of<T> real) {
+    LampSurface<T> s{};
+    const M_of<T> ends = real & (opaque < 3e38f);
+    SolidHit<T> hit{};
+    M_of<T> solid = ends & lnot(ends);
+    if (has_meshes(k.solids) && any(ends)) {
+        hit = hit_solids(k.solids, ray.origin, ray.direction, opaque * (1 + 1e-5f), ends);
+        solid = ends & (hit.triangle >= 0);
+    }
+    const T height = ray.origin.z - k.ground_z;
+    const T way = height / max_(T{} - ray.direction.z, all<T>(1e-18f));
+    s.met = ends & lnot(solid) & (ray.direction.z < 0.0f) & (height >= 0.0f) &
+            (abs_(opaque - way) <= way * 1e-4f);
+    if (k.ground == 0) s.met = s.met & lnot(s.met);
+    s.at = along(ray, select(s.met, opaque, T{}));
+    s.at.z = all<T>(k.ground_z);
+    s.normal.z = all<T>(1.0f);
+    for (T& albedo : s.albedo) albedo = all<T>(k.ground_albedo);
+    if (!any(solid)) return s;
+    const SolidPlace<T> place = place_on_solid(k.solids, ray.origin, ray.direction, hit);
+    const auto take = [&](T& own, T of_solid) { own = select(solid, of_solid, own); };
+    take(s.at.x, place.at.x), take(s.at.y, place.at.y), take(s.at.z, place.at.z);
+    take(s.normal.x, place.normal.x), take(s.normal.y, place.normal.y);
+    take(s.normal.z, place.normal.z);
+    for (int c = 0; c < 3; ++c) take(s.albedo[c], place.albedo[c]);
+    s.met = s.met | solid;
+    return s;
+}
+
+/// Light of the lamps that surfaces send along rays. `turn`: of the places on spheres.
 template <int W>
-PILEUS_FN void light_ground(const LampMarchParams& k, const LampMarchBuffers& b,
-                            const Ray<F<W>>& ray, F<W> depth, M<W> m, F<W> turn,
-                            F<W> (&colour)[3]) {
+PILEUS_FN void light_surface(const LampMarchParams& k, const LampMarchBuffers& b,
+                             const LampSurface<F<W>>& s, F<W> turn, F<W> (&colour)[3]) {
     using T = F<W>;
     constexpr float kInvPi = 4.0f * kInvFourPi;
-    Vec<T> p = along(ray, select(m, depth, T{}));
-    p.z = all<T>(k.ground_z);
     for (std::int32_t l = 0; l < k.lamps; ++l) {
         const LampParams& lamp = b.lamps[l];
         const auto add = [&](const LampSight<T>& sight) {
-            const T cosine = max_(sight.way.z, T{});
-            const M<W> lit = m & (cosine * sight.share > 0.0f);
+            const T cosine = max_(dot(s.normal, sight.way), T{});
+            M<W> lit = s.met & (cosine * sight.share > 0.0f);
+            if (any(lit) && has_meshes(k.solids))
+                lit = lit & lnot(behind_solids(k.solids, s.at, sight.way, sight.distance, lit));
             if (!any(lit)) return;
-            const T tau = depth_to_lamp(k.medium, p, sight, lit);
-            const T light = select(
-                lit, cosine * sight.share * exp_(T{} - tau) * (k.ground_albedo * kInvPi), T{});
-            for (int c = 0; c < 3; ++c) colour[c] = colour[c] + light * lamp.light[c];
+            const T tau = depth_to_lamp(k.medium, s.at, sight, lit);
+            const T light = cosine * sight.share * exp_(T{} - tau);
+            for (int c = 0; c < 3; ++c)
+                colour[c] =
+                    colour[c] + select(lit, light * (s.albedo[c] * kInvPi), T{}) * lamp.light[c];
         };
         if (!(lamp.radius > 0.0f)) {
-            add(see_lamp(lamp, p));
+            add(see_lamp(lamp, s.at));
             continue;
         }
-        LampCone<T> cone = lamp_cone(lamp, p);
+        LampCone<T> cone = lamp_cone(lamp, s.at);
         cone.share = cone.share * (1.0f / float(lamp.places));
         for (std::int32_t i = 0; i < lamp.places; ++i) add(lamp_place(lamp, cone, i, turn));
     }
@@ -325,18 +365,14 @@ PILEUS_FN void lamp_march_rows(const LampMarchParams& k, const LampMarchBuffers&
                 else
                     march_lamps<W, false>(k, b, ray, box.enter, leave, colour);
             }
-            if (k.ground != 0 && b.background != nullptr) {
-                // A depth image may hide the ground: what ends elsewhere is not lit.
-                const T height = ray.origin.z - k.ground_z;
-                const T way = height / max_(T{} - ray.direction.z, all<T>(1e-18f));
-                const M<W> ends = real & (ray.direction.z < 0.0f) & (height >= 0.0f) &
-                                  (opaque < 3e38f) & (abs_(opaque - way) <= way * 1e-4f);
+            if (b.background != nullptr && (k.ground != 0 || has_meshes(k.solids))) {
+                const LampSurface<T> surface = lamp_surface(k, ray, opaque, real);
                 T turn{};
                 for (int l = 0; l < W && k.spheres != 0; ++l)
                     set_lane(turn, l,
                              turn_of_spiral(std::uint32_t(lane(px, l) + k.camera.left),
                                             std::uint32_t(picture_row(k.camera, lane(py, l)))));
-                if (any(ends)) light_ground<W>(k, b, ray, opaque, ends, turn, behind);
+                if (any(surface.met)) light_surface<W>(k, b, surface, turn, behind);
             }
             for_block<W>(k.camera, x, y, last, [&](int l, std::int64_t pixel) {
                 for (int c = 0; c < 3; ++c) {

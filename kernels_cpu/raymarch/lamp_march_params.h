@@ -6,13 +6,14 @@
 #include "kernels_cpu/display/march_params.h"
 #include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
+#include "kernels_cpu/solids/solids_params.h"
 
 namespace pileus {
 
 struct LampMarchParams {
     MediumView medium;
     CameraParams camera;
-    std::int32_t media;  ///< on the grid, up to kMaxMedia; 0: the ground alone is lit
+    std::int32_t media;  ///< on the grid, up to kMaxMedia; 0: surfaces alone are lit
     PhaseParams phase[kMaxMedia];
     float albedo[kMaxMedia][3];
     float emission[kMaxMedia][3];  ///< as in Optics
@@ -38,6 +39,7 @@ struct LampMarchParams {
     std::int32_t ground;   ///< 0: none
     float ground_z;        ///< m
     float ground_albedo;
+    SolidsView solids;  ///< lit, too, and in each other's way; none: of other methods
 };
 
 struct LampMarchBuffers {
@@ -47,7 +49,7 @@ struct LampMarchBuffers {
     const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
     const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
     float* colour;              ///< [3][pixel], premultiplied; added to
-    float* background;          ///< [3][pixel], added to where rays end at the ground; null: none
+    float* background;          ///< [3][pixel], added to where rays end at surfaces; null: none
 };
 
 }  // namespace pileus

@@ -22,9 +22,9 @@ Overrides with(const char* refresh) {
 
 /// What a camera sees of a host's scene under a sun.
 std::vector<float> picture(Hosted& host, const double (&from)[3], const double (&to)[3],
-                           double fov_deg, double azimuth, double elevation) {
+                           double fov_deg, double azimuth, double elevation, float irradiance = 1) {
     host.aim(from, to, fov_deg, kWidth, kHeight);
-    host.sun(azimuth, elevation);
+    host.sun(azimuth, elevation, irradiance);
     std::vector<float> pixels(std::size_t(4) * kWidth * kHeight);
     auto frame = cleared<pileus_frame>();
     frame.colour = pixels.data();
@@ -33,8 +33,8 @@ std::vector<float> picture(Hosted& host, const double (&from)[3], const double (
     return pixels;
 }
 
-std::vector<float> picture(Hosted& host, double azimuth, double elevation) {
-    return picture(host, {16, -4000, 256}, {0, 0, 1024}, 30, azimuth, elevation);
+std::vector<float> picture(Hosted& host, double azimuth, double elevation, float irradiance = 1) {
+    return picture(host, {16, -4000, 256}, {0, 0, 1024}, 30, azimuth, elevation, irradiance);
 }
 
 /// The sum of differences to another over that of its own.
@@ -71,6 +71,35 @@ TEST_CASE("following light: a few iterations a picture follow the sun") {
     (void)picture(host, 120, elevation);
     for (int i = 0; i < 20; ++i) (void)picture(host, 120, elevation += 0.1);
     CHECK(difference(picture(host, 120, elevation), fresh(120, elevation)) < 0.01);
+}
+
+TEST_CASE("following light: parts of the light follow in turn, and stand where the sun stands") {
+    Hosted host(kSmallCumulus, with("8"));
+    REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
+    double elevation = 30;
+    (void)picture(host, 120, elevation);
+    std::vector<float> last;
+    for (int i = 0; i < 40; ++i) {
+        last = picture(host, 120, elevation += 0.1);
+        if (i % 13 == 12) CHECK(difference(last, fresh(120, elevation)) < 0.02);
+    }
+    // A brighter sun has all of its light at once.
+    for (int i = 0; i < 3; ++i) last = picture(host, 120, elevation += 0.1, 2);
+    for (int i = 0; i < 9; ++i) last = picture(host, 120, elevation);
+    CHECK(last == fresh(120, elevation));
+}
+
+TEST_CASE("following light: a sun that moves in every second picture is followed") {
+    for (const int first : {0, 1}) {
+        CAPTURE(first);
+        Hosted host(kSmallCumulus, with("8"));
+        REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
+        double elevation = 30;
+        std::vector<float> last = picture(host, 120, elevation);
+        for (int i = 0; i < 12 + first; ++i) last = picture(host, 120, elevation);
+        for (int i = 0; i < 60; ++i) last = picture(host, 120, elevation += i % 2 == 0 ? 0.2 : 0);
+        CHECK(difference(last, fresh(120, elevation)) < 0.02);
+    }
 }
 
 TEST_CASE("following light: after a jump of the sun it is there within eight pictures") {

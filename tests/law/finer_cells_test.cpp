@@ -53,6 +53,15 @@ TEST_CASE("finer cells: of one optical depth, an odd number, and no more than th
     CHECK(finer_cells(make_medium({8, 8, 8}, {8, 8, 8}, 1.01), limits) == Factor{3, 3, 3});
     CHECK(finer_cells(make_medium({8, 8, 8}, {8, 16, 40}, 1), limits) == Factor{1, 3, 5});
     CHECK(finer_cells(make_medium({1, 1, 1}, {40, 40, 40}, 1), limits) == Factor{41, 41, 41});
+    // Few cells along an axis that is not thin.
+    CHECK(finer_cells(make_medium({1, 1, 1}, {1, 1, 1}, 1), limits) == Factor{5, 5, 5});
+    CHECK(finer_cells(make_medium({2, 3, 4}, {1, 1, 1}, 1), limits) == Factor{3, 3, 1});
+    CHECK(finer_cells(make_medium({1, 1, 1}, {1, 2, 0.5}, 0.25), limits) == Factor{1, 3, 1});
+    // As many as memory has, or as they are.
+    CHECK(finer_cells(make_medium({400, 400, 1}, {400, 400, 1}, 1), limits) == Factor{1, 1, 3});
+    Limits hundred;
+    hundred[LimitId::kVoxels] = 100;
+    CHECK(finer_cells(make_medium({1, 1, 1}, {1, 1, 1}, 1), hundred) == Factor{3, 3, 3});
     // No larger than 2^19, whatever the extinction.
     for (const double per_m : {100.0, 1e10, 1e30}) {
         const Factor f = finer_cells(make_medium({6, 6, 4}, {6, 6, 4}, per_m), limits);

@@ -131,6 +131,31 @@ TEST_CASE("particles: solids shadow them, but for the share that is kept") {
         }
 }
 
+TEST_CASE("particles: lights reach solids past other solids, as by paths") {
+    // A wall that faces the camera, beside the ball; in its middle a unit of irradiance.
+    const std::string rows = "0 0 90 2 0.001\n";
+    const std::string wall = "v -30 20 20\nv 30 20 20\nv -30 20 80\nv 30 20 80\nf 1 2 4\nf 1 4 3\n";
+    const std::string grey = "[[solid]]\nfile = \"plate.obj\"\nalbedo = [0.2, 0.5, 0.8]\n";
+    const std::string lights[] = {
+        "[[light]]\ntype = \"point\"\nposition_m = [0, -40, 50]\nintensity = 3600\n",
+        "[[light]]\ntype = \"spot\"\nposition_m = [0, -40, 50]\ntarget_m = [0, 20, 50]\n"
+        "cone_deg = 20\npenumbra_deg = 2\nintensity = 3600\n",
+        "[[light]]\ntype = \"directional\"\nazimuth_deg = 180\nelevation_deg = 60\nirradiance = "
+        "2\n"};
+    // Between the wall and the lights, out of the camera's sight.
+    const std::string level = "v -30 0 60\nv 30 0 60\nv -30 19 60\nv 30 19 60\nf 5 6 8\nf 5 8 7\n";
+    for (const auto& display : kDisplays) {
+        for (const std::string& light : lights) {
+            CAPTURE(light);
+            const Picture lit = show(light + grey, display, rows, {}, wall);
+            CHECK(std::fabs(double(lit.at("G", 1, 1)) / (0.5 / 3.141592653589793) - 1) < 0.001);
+            CHECK(std::fabs(double(lit.at("B", 1, 1)) / double(lit.at("R", 1, 1)) - 4) < 1e-5);
+        }
+        const Picture dark = show(lights[2] + grey, display, rows, {}, wall + level);
+        CHECK(dark.at("G", 1, 1) == 0);
+    }
+}
+
 TEST_CASE("particles: lights and solids give the same picture in every width and thread") {
     std::string rows;
     for (std::uint32_t i = 0; i < 200; ++i)

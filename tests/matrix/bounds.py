@@ -14,6 +14,8 @@ ONE = re.compile(rf"({NUMBER}) %")
 FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
 
 
+# Known as too bright, by up to so much.
+BRIGHT = (0.0, 1.0)
 # Scenes that are beyond their bounds, and why: docs/accuracy.md, "What the short form finds".
 KNOWN = [
     ("collectors", {"periodic", "no-resolution", "thick"}, "a deck of 100 optical depths seen along its top"),
@@ -22,19 +24,41 @@ KNOWN = [
     ("particles-billboards", {"inside"}, "boards that the camera is in"),
     ("particles", {"down"}, "little light comes straight up, and few harmonics ring"),
     ("particles-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
+    ("particles", {"map-patch"}, "a bright patch on particles", (-0.7, 0.4)),
     ("particles-billboards", {"map-patch"}, "a bright patch seen through boards"),
     ("collectors-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
     ("raymarch", {"inside", "coloured"}, "deep within a colour that is absorbed"),
+    ("raymarch", {"thick", "coloured"}, "deep within a colour that is absorbed"),
+    ("raymarch", {"inside", "thick"}, "deep within a thick medium little light is left"),
+    ("raymarch", {"detail", "thick"}, "nodes are coarser than the detail of a thick medium", (-0.4, 0.4)),
+    ("particles-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),
+    ("collectors-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),
+    ("collectors-billboards", {"map-patch"}, "a bright patch seen through boards", (-0.8, 1.0)),
+    ("collectors-billboards", {"one-cell"}, "a board is wider than a box of one cell", (-0.6, 1.0)),
+    ("photon-grid", {"down"}, "little light comes straight up, and few harmonics ring", (0.0, 1.0)),
     ("raymarch", {"solid", "periodic"}, "walls on the ground below a deck"),
 ] + [(column, {"solid", "periodic"}, "surfaces below a deck have all of the sky")
      for column in ("collectors", "photon-grid", "optical-depth")
 ] + [(column, {"thick", cells}, "faces of a box that a high sun grazes") for column in ("collectors", "raymarch")
-     for cells in ("no-resolution", "one-cell")]
+     for cells in ("no-resolution", "one-cell")
+] + [(column, {"solid", other}, "a solid's shade on the ground before it", BRIGHT)
+     for column in ("collectors", "photon-grid", "raymarch", "optical-depth", "particles", "particles-billboards")
+     for other in ("depth", "ground-white")
+] + [(column, {"depth", "coloured"}, "few harmonics ring where an image hides an absorbed colour's light", BRIGHT)
+     for column in ("collectors", "photon-grid")
+] + [(column, {"sun-corner"}, "an upright face that a low sun grazes") for column in ("collectors", "photon-grid")
+] + [(column, {"hg-0.97", other}, "a narrow peak and few harmonics", BRIGHT) for column in ("collectors", "photon-grid")
+     for other in ("map-patch", "coloured")
+] + [("optical-depth", set(), "an appearance, as its report says")]
 
 
-def explained(column, names):
-    """Why a scene with these features may be beyond its bound; None: it may not."""
-    return next((why for where, features, why in KNOWN if where == column and features <= set(names)), None)
+def explained(column, names, shares):
+    """Why a scene with these features may be off by all of these shares of the mean; None: it may not."""
+    for where, features, why, *limits in KNOWN:
+        low, high = limits[0] if limits else (-1, float("inf"))
+        if where == column and features <= set(names) and shares and all(low <= s <= high for s in shares):
+            return why
+    return None
 
 
 class Table:

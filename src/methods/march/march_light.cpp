@@ -34,7 +34,7 @@ Status light_nodes(const Context& context, const FrameView& view, MarchState& st
                                     : make_medium_view(view.world.medium, media.majorants);
         return follow_sun_depth(
             context, medium, majorants, read,
-            media.wide_sun ? wide_sun_depth_nodes(medium) : sun_depth_nodes(medium),
+            media.wide_sun ? wide_sun_depth_nodes(view.world.medium) : sun_depth_nodes(medium),
             march_turn(view, state), light.sun.slices, light.sun.nodes);
     }
     if (!light.sun.nodes.optical_depth.empty() && light.sun.to_sun == to_sun) return Status::ok();

@@ -17,6 +17,12 @@ std::array<int, 3> sun_cells(const FrameView& view, const OpticalDepthSettings& 
     return cells;
 }
 
+/// One for each of the sun's wide nodes.
+std::array<int, 3> wide_cells(const Medium& medium) {
+    const NodeGrid nodes = wide_sun_depth_nodes(medium);
+    return {nodes.size[0], nodes.size[1], nodes.size[2]};
+}
+
 }  // namespace
 
 bool caps_extinction(const FrameView& view, const MarchState& state) {
@@ -26,7 +32,13 @@ bool caps_extinction(const FrameView& view, const MarchState& state) {
     return most < max_extinction(medium);
 }
 
+bool has_coarse_sun(const FrameView& view, const MarchState& state) {
+    return state.media.wide_sun && !state.choice.march_light &&
+           !view.world.medium.detail.present() && view.scene.sun.present;
+}
+
 bool has_sun_grid(const FrameView& view, const MarchState& state) {
+    if (has_coarse_sun(view, state)) return true;
     const auto& look = state.choice.look;
     // A sun that is below the horizon may rise.
     if (!look || !view.scene.sun.present) return false;
@@ -36,6 +48,7 @@ bool has_sun_grid(const FrameView& view, const MarchState& state) {
 Grid sun_grid(const FrameView& view, const MarchState& state) {
     const Medium& medium = view.world.medium;
     if (!has_sun_grid(view, state)) return medium.grid;
+    if (has_coarse_sun(view, state)) return resampled_grid(medium, wide_cells(medium));
     return resampled_grid(medium, sun_cells(view, *state.choice.look));
 }
 
@@ -45,8 +58,9 @@ const Medium& marched_medium(const FrameView& view, const MarchState& state) {
 }
 
 bool has_wide_sun(const Medium& medium) {
-    if (!has_thin_voxels(medium)) return false;
     const Grid& grid = medium.grid;
+    if (!has_thin_voxels(medium) || grid.constant) return false;
+    if (node_count(wide_sun_depth_nodes(medium)) == voxel_count(grid)) return false;
     const float* density = medium.volume.density.data();
     const auto holds = [&](int x, int y, int z) { return density[voxel_index(grid, x, y, z)] > 0; };
     const int last[3] = {grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1};
@@ -87,13 +101,15 @@ Status cap_medium(const FrameView& view, MarchState& state) {
 Status make_lit_medium(const Context& context, const FrameView& view, MarchState& state) {
     MarchMedia& media = state.media;
     if (!has_sun_grid(view, state) || !media.lit.volume.density.empty()) return Status::ok();
-    const OpticalDepthSettings& look = *state.choice.look;
+    const bool coarse = has_coarse_sun(view, state);
     const StageClock clock(context, "buffer cells");
     // Whole or not at all: what memory ended within is made anew.
     Medium lit;
-    PILEUS_TRY(resample_medium(marched_medium(view, state), sun_cells(view, look), context.threads,
-                               arrays::lit_density(sun_grid(view, state)), lit));
-    lit.sigma *= float(look.light_scale);
+    const Medium& medium = marched_medium(view, state);
+    PILEUS_TRY(resample_medium(medium,
+                               coarse ? wide_cells(medium) : sun_cells(view, *state.choice.look),
+                               context.threads, arrays::lit_density(sun_grid(view, state)), lit));
+    if (!coarse) lit.sigma *= float(state.choice.look->light_scale);
     PILEUS_TRY(make_majorants(lit, false, context, media.lit_majorants));
     media.lit = std::move(lit);
     return Status::ok();

@@ -38,6 +38,7 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     media.wide_sun = settings.scattering.ordinates &&
                      settings.light.kind != RaymarchLightKind::kBuffer && !view.world.direct_sky &&
                      has_wide_sun(view.world.medium);
+    media.lit = Medium{};
     state_.light.sky.made = false;
     const bool nodes =
         settings.scattering.ordinates && settings.march.steps > 0 && view.world.medium.sigma > 0;
@@ -65,7 +66,7 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
     light.ground_shadow.slices.reserve();
     if (choice.look) return Status::ok();
     if (!light.ordinates.nodes.density.empty())
-        PILEUS_TRY(reserve_ordinates(light.ordinates.nodes));
+        PILEUS_TRY(reserve_march_ordinates(light.ordinates));
     if (!light.ordinates.sky.levels.empty()) PILEUS_TRY(reserve_sky_ordinates(light.ordinates.sky));
     // Fewer marched pixels have fewer nodes.
     if (choice.sky_nodes)

@@ -128,6 +128,33 @@ Status solve_ordinates_for(const Context& context, const FrameView& view, const 
     return turn_ordinates(context, medium, view.camera, true, nodes);
 }
 
+Status reserve_march_ordinates(MarchOrdinates& out) {
+    out.slices.reserve();
+    PILEUS_TRY(reserve_ordinates(out.nodes));
+    return hold(arrays::ordinate_beams(out.nodes.filled.size(), kMaxOrdinateBeams), out.nodes.beam);
+}
+
+namespace {
+
+/// What is due of a light that follows the sun by part of the work; false: all of it.
+bool follows_slowly(const FrameView& view, const OrdinateAsk& ask, const MarchState& state,
+                    const OrdinateFollow& follow) {
+    const MarchOrdinates& ordinates = state.light.ordinates;
+    return ordinates.followed && state.light.sky.made &&
+           follow.due.size() < std::size_t(follow.slices) && ask.sun != nullptr &&
+           ordinates.nodes.media == 1 && !view.world.solids.meshes;
+}
+
+/// After a picture that made light; `follow`: by part, null: by all.
+void note_late(const FrameView& view, const OrdinateFollow* follow, MarchOrdinates& out) {
+    if (follow == nullptr) hold_sun(view.lighting.to_sun, out.slices);
+    out.ground_late = follow != nullptr && follow->solve;
+    out.light_late =
+        follow != nullptr && !follow->solve && (out.light_late || !follow->due.empty());
+}
+
+}  // namespace
+
 Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
                        MarchState& state) {
     const Medium& medium = view.world.medium;
@@ -147,15 +174,28 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
         light.ordinates.still = 0;
     } else if (light.ordinates.followed) {
         light.ordinates.followed = ++light.ordinates.still < refresh - 1;
-        solve = !light.ordinates.followed || unsolved(light.ordinates.nodes);
+        solve = !light.ordinates.followed || unsolved(light.ordinates.nodes) ||
+                light.ordinates.light_late || light.ordinates.ground_late;
     }
     if (light.ordinates.followed) ask.iterations = kFollowedIterations;
+    ask.keeps_beam = state.choice.hosted;
+    OrdinateFollow follow;
+    if (refresh > 1) {
+        const SunTurn turn = march_turn(view, state);
+        follow.slices = turn.slices;
+        follow.due = follow_sun(turn, light.ordinates.slices);
+        // Light and ground take turns.
+        follow.solve = !light.ordinates.ground_late;
+        solve = solve || (light.ordinates.followed && !follow.due.empty());
+        if (follows_slowly(view, ask, state, follow)) ask.follow = &follow;
+    }
     const bool seen = !solve && same_way(medium, slack_deg, light.sky.camera, camera);
     if (seen) return Status::ok();
     light.sky.made = false;
     if (solve)
         PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, view.lighting, ask,
                                   light.ordinates.nodes));
+    if (solve) note_late(view, ask.follow, light.ordinates);
     PILEUS_TRY(turn_ordinates(context, medium, camera, true, light.ordinates.nodes));
     light.sky.to_sun = view.lighting.to_sun;
     light.sky.camera = camera;

@@ -63,9 +63,13 @@ struct MarchSky {
 
 struct MarchOrdinates {
     OrdinateNodes nodes;
-    int still = 0;          ///< pictures since the sun has moved
-    bool followed = false;  ///< they went on from those of another sun
-    SkyOrdinates sky;       ///< of a sky in place, instead
+    int still = 0;  ///< pictures since the sun has moved
+    // Where pictures follow the sun by part of the work:
+    SunSlices slices;          ///< of nodes' sunlight
+    bool light_late = false;   ///< nodes have sunlight that is not solved for
+    bool ground_late = false;  ///< light is solved for that the ground has not
+    bool followed = false;     ///< they went on from those of another sun
+    SkyOrdinates sky;          ///< of a sky in place, instead
 };
 
 /// Light on nodes, which frames of the same light share.
@@ -125,6 +129,8 @@ int sky_light_bits(const MarchChoice& choice);
 
 /// Whether the largest extinction of a look cuts anything; before values are known: may cut.
 bool caps_extinction(const FrameView& view, const MarchState& state);
+/// Whether rays to the sun from wide nodes read means of the medium's cells.
+bool has_coarse_sun(const FrameView& view, const MarchState& state);
 /// Whether optical depths are made on cells or of extinctions other than the medium's.
 bool has_sun_grid(const FrameView& view, const MarchState& state);
 /// Cells of the sun's optical depth.
@@ -147,6 +153,8 @@ Status choose_scattering(const FrameView& view, MarchChoice& choice);
 /// Solves for them where the light has changed. kLimit: out of memory.
 Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
                        MarchState& state);
+/// Memory for any lights and cameras. kLimit: out of memory.
+Status reserve_march_ordinates(MarchOrdinates& out);
 /// Whether the optical depth to the sun is nearly linear from voxel to voxel.
 bool has_thin_voxels(const Medium& medium);
 /// Light that begins in the box: of these lamps, of media that shine.

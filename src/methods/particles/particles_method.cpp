@@ -20,15 +20,19 @@ Status fill_background(const Context& context, const FrameView& view, ParticlesS
     return show_background(context, view.lighting, k, b);
 }
 
-/// The grid dims light on its way to the ground, as it does the sun's.
-Status light_ground_by_lamps(const Context& context, const FrameView& view, ParticlesState& state) {
-    if (view.lighting.lamps.empty() || !view.lighting.ground.present) return Status::ok();
+/// The grid dims light on its way to ground and solids, as it does the sun's.
+Status light_surfaces_by_lamps(const Context& context, const FrameView& view,
+                               ParticlesState& state) {
+    const Solids& solids = view.world.solids;
+    if (view.lighting.lamps.empty() || !(view.lighting.ground.present || solids.meshes))
+        return Status::ok();
     LampNodes lamps;
     lamps.lamps = view.lighting.lamps;
     const Medium& medium = view.world.medium;
     LampMarchParams k =
         lamp_march_params(medium, state.majorants, view.lighting, state.camera, lamps, 0);
     k.media = 0;
+    k.solids = solids.view();
     return add_lamp_light(context, medium, k, lamps, state.planes);
 }
 
@@ -113,7 +117,7 @@ Status ParticlesMethod::render(const Context& context, const FrameView& view, co
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
     PILEUS_TRY(fill_background(context, view, state_));
     PILEUS_TRY(show_particles(context, view, state_));
-    return light_ground_by_lamps(context, view, state_);
+    return light_surfaces_by_lamps(context, view, state_);
 }
 
 FrameWork ParticlesMethod::full_work() const {

@@ -98,8 +98,7 @@ void note_plan(const FrameView& view, const ParticlesState& state, Plan& plan) {
     if (view.world.solids.meshes) plan.need("shadows of solids on particles");
     const std::size_t lamps = view.lighting.lamps.size();
     if (lamps > 0) plan.need((std::to_string(lamps) + " lights of [[light]]").c_str());
-    if (lamps > 0 && view.world.solids.meshes)
-        plan.leave_out("light of [[light]] on solids", "not in this version");
+    if (lamps > 0 && view.world.solids.meshes) plan.need("light of [[light]] on solids");
     if (state.outlined_only || !state.tree.colour.empty())
         plan.need("colours of particles");
     else

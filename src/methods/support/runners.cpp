@@ -18,8 +18,7 @@ constexpr unsigned kMarch = bit(MethodColumn::kRaymarch) | bit(MethodColumn::kOp
 constexpr unsigned kPaths = bit(MethodColumn::kPath), kSkies = bit(MethodColumn::kCloudSkies);
 
 constexpr PairRow kPairRows[] = {
-    {"[[light]] and [[solid]]", kByPhotons | kMarch,
-     "particles leave solids unlit by lamps, which the plan says"},
+    {"[[light]] and [[solid]]", kByPhotons | kMarch, ""},
     {"[[light]] and periodic media, a sky in place, marched detail", kAll, ""},
     {"[[light]] whose sphere reaches below the ground, with shadow_samples > 1", kAll, ""},
     {"emission and transfer, a sky in place", kAll, ""},

@@ -62,7 +62,7 @@ constexpr FeatureRow kViewRows[] = {
     row(Feature::kInside, FeatureGroup::kOfCamera, "camera within media", "", "",
         bounded("nodes around it: +0.6 %; deep in thick media -15 to +8 %"),
         bounded("boards that the camera is in: +8 %"), bounded("-5 to +2 %"), exact(),
-        bounded("-1 to +4 %; deep in thick media +13 %"), bounded("-95 %"),
+        bounded("-1 to +4 %; deep in thick media +19 %"), bounded("-95 %"),
         bounded("within deep particles +34 %, absorbed colours x 2.3"),
         bounded("boards that the camera is in: +65 %, absorbed colours x 9"),
         bounded("marched, as its kinds")),

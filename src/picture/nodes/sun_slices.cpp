@@ -47,6 +47,10 @@ std::vector<int> follow_sun(const SunTurn& turn, SunSlices& s) {
     return due;
 }
 
+void hold_sun(const SunDirection& sun, SunSlices& s) {
+    for (auto* of : {&s.suns, &s.held}) of->assign(of->size(), sun);
+}
+
 Status make_shadow_slice(const Context& context, const ShadowParams& k, const ShadowBuffers& b,
                          int slice, int slices) {
     const std::uint32_t rows = std::uint32_t(k.nodes.size[1] * k.nodes.size[2]);

@@ -46,6 +46,8 @@ constexpr double kMaxSliceDeg = 1;
 
 /// Takes up the frame's sun; the slices that are to be made for `SunSlices::held` now.
 std::vector<int> follow_sun(const SunTurn& turn, SunSlices& slices);
+/// All slices have been made for one sun.
+void hold_sun(const SunDirection& sun, SunSlices& slices);
 
 /// The optical depths of one slice of the nodes' rows, towards k.to_sun. Slices are of the host.
 Status make_shadow_slice(const Context& context, const ShadowParams& k, const ShadowBuffers& b,

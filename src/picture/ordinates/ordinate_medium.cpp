@@ -175,6 +175,17 @@ Status sample_ordinates(const Context& context, const Medium& medium, const Majo
     return sample_parts(context, medium, majorants, samples, out);
 }
 
+namespace {
+
+/// Depth towards the sun, read from its nodes.
+float depth_at_sample(const SunDepth& sun, const NodeSamples& samples, std::size_t s,
+                      bool periodic) {
+    const Vec<float> node = node_position(sun.nodes, sample_place(samples, s));
+    return interpolate(sun.optical_depth.data(), node_corners(node, sun.nodes.size, periodic));
+}
+
+}  // namespace
+
 Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
                   Buffer<float>& depths) {
@@ -187,11 +198,8 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
     if (sun != nullptr)
         parallel_each(context.threads, nodes.filled.size(), [&](std::size_t n) {
             each_sample(nodes.grid, samples, std::size_t(nodes.filled[n]), [&](std::size_t s) {
-                if (!(nodes.samples[s] > 0)) return;
-                const Vec<float> node = node_position(sun->nodes, sample_place(samples, s));
-                depths[s] =
-                    interpolate(sun->optical_depth.data(),
-                                node_corners(node, sun->nodes.size, k.medium.periodic != 0));
+                if (nodes.samples[s] > 0)
+                    depths[s] = depth_at_sample(*sun, samples, s, k.medium.periodic != 0);
             });
         });
     else
@@ -204,24 +212,58 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
     return part_sun(context, k, medium, nodes);
 }
 
+namespace {
+
+/// Mean irradiance on what lies in a node; `depth`: that counts, of a sample.
+template <class Depth>
+float light_in_node(const Medium& medium, const OrdinateNodes& nodes, const NodeSamples& samples,
+                    const SampleWay& way, int channel, std::size_t node, const Depth& depth) {
+    const float rest = ordinate_rest(nodes, nodes.parts, channel, node);
+    float light = 0, mass = 0;
+    each_sample(nodes.grid, samples, node, [&](std::size_t s) {
+        const float density = nodes.samples[s];
+        if (!(density > 0)) return;
+        light += density * light_in_sample(way, rest * medium.sigma * density, depth(s));
+        mass += density;
+    });
+    return mass > 0 ? light / mass : 0.0f;
+}
+
+}  // namespace
+
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
                  const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam) {
     const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     const SampleWay way(samples, {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]});
     parallel_each(context.threads, nodes.filled.size(), [&](std::size_t filled) {
         const auto i = std::size_t(nodes.filled[filled]);
-        const float rest = ordinate_rest(nodes, nodes.parts, channel, i);
-        const float way_rest = ordinate_rest(nodes, nodes.sunward, channel, i);
-        float light = 0, mass = 0;
-        each_sample(nodes.grid, samples, i, [&](std::size_t s) {
-            const float density = nodes.samples[s];
-            if (!(density > 0)) return;
-            light +=
-                density * light_in_sample(way, rest * medium.sigma * density, way_rest * depths[s]);
-            mass += density;
-        });
-        beam[filled] = mass > 0 ? light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]) : 0.0f;
+        const float light =
+            light_in_node(medium, nodes, samples, way, channel, i, [&](std::size_t s) {
+                return ordinate_rest(nodes, nodes.sunward, channel, i) * depths[s];
+            });
+        beam[filled] = light * (nodes.seen.empty() ? 1.0f : nodes.seen[i]);
     });
+}
+
+void follow_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
+                  const Lighting& lighting, int channel, const SunDepth& sun,
+                  const OrdinateFollow& follow, float* beam) {
+    const NodeSamples samples = node_samples(nodes.grid, nodes.within);
+    const SampleWay way(samples, {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]});
+    const std::size_t count = nodes.filled.size(), every = std::size_t(follow.slices);
+    const float rest = nodes.optics[0][channel].rest;
+    for (const int slice : follow.due) {
+        const std::size_t first = std::size_t(slice);
+        const std::size_t due = first < count ? (count - first + every - 1) / every : 0;
+        parallel_each(context.threads, due, [&](std::size_t n) {
+            const std::size_t filled = first + n * every;
+            const auto node = std::size_t(nodes.filled[filled]);
+            beam[filled] =
+                light_in_node(medium, nodes, samples, way, channel, node, [&](std::size_t s) {
+                    return rest * depth_at_sample(sun, samples, s, nodes.periodic);
+                });
+        });
+    }
 }
 
 }  // namespace pileus

@@ -81,4 +81,9 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
                  const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam);
 
+/// The same of the nodes whose turn it is, of one medium without solids.
+void follow_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
+                  const Lighting& lighting, int channel, const SunDepth& sun,
+                  const OrdinateFollow& follow, float* beam);
+
 }  // namespace pileus

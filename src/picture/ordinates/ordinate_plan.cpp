@@ -84,6 +84,7 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, several(s.levels, arrays::ordinate_nodes(s.nodes, Stage::kWrite)));
     add(t, renamed(arrays::ordinate_nodes(s.nodes, Stage::kShadow), "ordinates: numbers at work",
                    Stage::kShadow, Stage::kShadow));
+    add(t, arrays::ordinate_beams(s.filled, s.beams));
     add(t, several(s.levels, arrays::ordinate_places(s.filled, Stage::kWrite)));
     add(t, arrays::ordinate_rim(s.rim));
     add(t, renamed(arrays::ordinate_places(s.filled, Stage::kShadow), "ordinates: places at work",

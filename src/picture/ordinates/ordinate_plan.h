@@ -18,6 +18,7 @@ struct OrdinateSizes {
     bool moments = true;                          ///< nodes are read near the camera
     int media = 1, channels = 1;
     bool sunlit = true;
+    int beams = 0;        ///< sets whose sunlight stays
     bool own = false;     ///< light of lamps and of media
     bool points = false;  ///< tables for lamps that have a place
     bool solids = false;

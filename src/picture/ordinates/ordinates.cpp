@@ -28,6 +28,25 @@ void keep_solution(const OrdinateSet& before, OrdinateSet& set) {
     set.residual = before.residual;
 }
 
+/// Whether part of the work is enough: the ground has light of all sets, and no set waits that the
+/// sun has no part in.
+bool may_follow(const OrdinateNodes& nodes, bool ground) {
+    for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
+        const OrdinateSet& set = nodes.sets[s];
+        if (ground && !nodes.ground.known[s]) return false;
+        if (set.beam == 0 && set.own == 0 && !(set.same && set.residual < kSolvedChange))
+            return false;
+    }
+    return true;
+}
+
+/// Colours of what the ground sends up, as they were.
+void keep_ground(const std::array<OrdinateSet, kMaxOrdinateSets>& before,
+                 std::vector<OrdinateSet>& sets) {
+    for (std::size_t s = 0; s < sets.size(); ++s)
+        if (sets[s].ground) sets[s].colour = before[s].colour;
+}
+
 }  // namespace
 
 NodeGrid ordinate_grid(const Medium& medium, double rest) {
@@ -154,34 +173,46 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     const bool ground = lights_ground(medium, lighting, ask, out);
     out.ground.map.size[0] = ground ? out.ground.map.size[0] : 0;
     if (ground) PILEUS_TRY(place_ground(context, medium, lighting, out));
-    Buffer<float> unkept, beam, own, ring;
+    const bool part = held == out.sets.size() && may_follow(out, ground);
+    const OrdinateFollow* const follow = part ? ask.follow : nullptr;
+    Buffer<float> unkept, unkept_beam, own, ring;
     Buffer<float>& depths = ask.depths != nullptr ? *ask.depths : unkept;
-    bool shines = false;
-    for (const OrdinateSet& set : out.sets) shines |= set.beam > 0;
-    if (shines) {
-        if (!ask.sampled)
+    Buffer<float>& beams = ask.keeps_beam ? out.beam : unkept_beam;
+    int shine = 0;
+    for (const OrdinateSet& set : out.sets) shine += set.beam > 0 ? 1 : 0;
+    if (shine > 0) {
+        if (!ask.sampled && follow == nullptr)
             PILEUS_TRY(sample_sun(context, medium, majorants, lighting, ask.sun, out, depths));
-        PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), beam));
+        PILEUS_TRY(hold(arrays::ordinate_beams(nodes, ask.keeps_beam ? shine : 1), beams));
     }
+    if (follow != nullptr) keep_ground(before, out.sets);
+    const bool grounds = ground && (follow == nullptr || !follow->solve);
     OrdinateSolver solver, larger;
+    float* beam = beams.data();
     for (std::size_t s = 0; s < out.sets.size(); ++s) {
         OrdinateSet& set = out.sets[s];
         if (ask.only >= 0 && std::size_t(ask.only) != s) continue;
-        const bool solved = set.same && set.residual < kSolvedChange;
-        if (solved && (!ground || out.ground.known[s])) continue;
-        if (set.beam > 0)
-            light_nodes(context, medium, out, lighting, set.channel, depths, beam.data());
+        const bool solved =
+            (set.same && set.residual < kSolvedChange) || (follow != nullptr && !follow->solve);
+        if (set.same && solved && (!ground || out.ground.known[s])) continue;
         OrdinateSources from;
-        if (set.beam > 0) from.beam = beam.data();
+        if (set.beam > 0) {
+            from.beam = beam;
+            if (follow != nullptr)
+                follow_nodes(context, medium, out, lighting, set.channel, *ask.sun, *follow, beam);
+            else
+                light_nodes(context, medium, out, lighting, set.channel, depths, beam);
+            beam += ask.keeps_beam ? nodes : 0;
+        }
         PILEUS_TRY(own_light(context, medium, out, ask, set, own, from.fixed));
         if (out.ring)
             PILEUS_TRY(
                 light_ring(context, ask.coarser, s, begins(ask.iterations, set), out, ring, from));
         if (!solved)
             PILEUS_TRY(solve_set(context, medium, lighting, ask, s, from, solver, larger, out));
-        if (ground) PILEUS_TRY(light_ground(context, medium, lighting, from, s, solver, out));
+        if (grounds) PILEUS_TRY(light_ground(context, medium, lighting, from, s, solver, out));
     }
-    return ground ? mix_ground(context, medium, majorants, lighting, out) : Status::ok();
+    return grounds ? mix_ground(context, medium, majorants, lighting, out) : Status::ok();
 }
 
 }  // namespace pileus

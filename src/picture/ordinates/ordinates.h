@@ -59,6 +59,8 @@ struct OrdinateShown {
     int channel = 0;  ///< whose optics
     int set = -1;     ///< -1: all sets of the channel, each by its colour there
 };
+/// Most that the sun shines in: one a channel.
+constexpr int kMaxOrdinateBeams = 3;
 /// Most that are shown, where sets may be shown together.
 constexpr std::size_t kMaxShown = 3;
 
@@ -113,6 +115,7 @@ struct OrdinateNodes : OrdinateCells {
     Buffer<std::int32_t> rim;  ///< empty nodes beside filled ones
     Buffer<float> samples;     ///< of the density, within nodes
     Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
+    Buffer<float> beam;     ///< [set with a beam][filled]: sunlight, where it follows the sun
     Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
     OrdinateHalf half;
     Buffer<float> light;     ///< [shown][medium][node], as the march reads it
@@ -165,6 +168,11 @@ inline Array<float> ordinate_depths(std::uint64_t samples) {
 /// Of whole nodes: densities, which stay, or the beam, or light before it is spread.
 inline Array<float> ordinate_nodes(std::uint64_t nodes, Stage last) {
     return {"ordinates: numbers of nodes", nodes, Stage::kShadow, last};
+}
+/// Of sets with a beam.
+inline Array<float> ordinate_beams(std::uint64_t nodes, int sets) {
+    return {"ordinates: sunlight on nodes", bytes_of(std::uint64_t(sets), nodes), Stage::kShadow,
+            Stage::kWrite};
 }
 /// Of the sun, what solids leave.
 inline Array<float> ordinate_seen(std::uint64_t nodes) {
@@ -230,6 +238,15 @@ inline Status hold(const Array<float>& array, Buffer<float>& buffer) {
 /// Optics of a medium; f: the peak's share.
 OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f);
 
+/// What a picture does of light that follows the sun over several of them: nodes whose number
+/// modulo `slices` is due see the sun where it stands. Then light is solved for, or what leaves the
+/// nodes for the ground.
+struct OrdinateFollow {
+    int slices = 1;
+    std::vector<int> due;
+    bool solve = true;  ///< false: the ground
+};
+
 /// Of lamps whose light has one colour.
 constexpr int kLampStrength = 4;
 
@@ -252,8 +269,10 @@ struct OrdinateAsk {
         false;  ///< light on the ground is wanted; it then sends up its mean below the medium
     /// Out: optical depths to the sun from samples; null: unwanted.
     Buffer<float>* depths = nullptr;
-    bool sampled = false;     ///< these are there already
-    int only = -1;            ///< set that is solved for; -1: all
+    bool sampled = false;                    ///< these are there already
+    int only = -1;                           ///< set that is solved for; -1: all
+    const OrdinateFollow* follow = nullptr;  ///< null: all of it
+    bool keeps_beam = false;  ///< OrdinateNodes::beam stays, for pictures that follow
     OrdinateCoarser coarser;  ///< of a ring
 };
 

@@ -11,9 +11,10 @@
 
 namespace pileus {
 
-/// Cells of each axis that take the place of one: odd, all 1 where the medium's own are no deeper
-/// than one optical depth, or are as many as a finer grid may have. A cell that is wider than a
-/// flat box is thick stays: light knows no more of it than its height.
+/// Cells of each axis that take the place of one: odd. All 1 where the medium's own are no deeper
+/// than one optical depth and at least four along axes that are not thin, or are as many as a finer
+/// grid may have. A cell that is wider than a flat box is thick stays: light knows no more of it
+/// than its height.
 std::array<int, 3> finer_cells(const Medium& medium, const Limits& limits);
 
 /// Gives a medium a grid of so many cells for each of its own; its values stay as they are.
