@@ -22,6 +22,10 @@ constexpr Accident kAccidents[] = {
      "dense in cloud"},
     {"particles_uncoloured",
      "particles with colours or emission of their own, for which a grid has the medium's alone"},
+    {"camera_deep",
+     "picture from deep among nodes of more than an optical depth, where little light comes: it "
+     "may "
+     "be several times too bright (method path has no nodes)"},
     {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
 };
 

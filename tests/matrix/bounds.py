@@ -28,8 +28,6 @@ KNOWN = [
     ("particles-billboards", {"map-patch"}, "a bright patch seen through boards"),
     ("collectors-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
     ("raymarch", {"inside", "coloured"}, "deep within a colour that is absorbed"),
-    ("raymarch", {"thick", "coloured"}, "deep within a colour that is absorbed"),
-    ("raymarch", {"inside", "thick"}, "deep within a thick medium little light is left"),
     ("raymarch", {"detail", "thick"}, "nodes are coarser than the detail of a thick medium", (-0.4, 0.4)),
     ("particles-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),
     ("collectors-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),

@@ -55,10 +55,41 @@ TEST_CASE("every method reports the accidents that can happen to it") {
     }
     met.emplace("fractions_capped");      // of weather data: weather/columns_test
     met.emplace("particles_uncoloured");  // of particles: law/particle_colours_test
+    met.emplace("camera_deep");           // below
     for (const Accident& accident : accidents()) {
         CAPTURE(std::string(accident.counter));
         CHECK(met.count(accident.counter) == 1);
     }
+}
+
+TEST_CASE("a camera deep among thick nodes is a warning") {
+    const auto warns = [](const char* extinction, const char* at) {
+        const Picture p =
+            render_one(scene_from(R"(
+[camera]
+position_m = [0, -2000, 0]
+target_m = [0, 1000, 0]
+resolution = [4, 4]
+[sun]
+elevation_deg = 40
+[[medium]]
+density = "uniform:ellipsoid"
+bounds_m = [[-500, -500, -500], [500, 500, 500]]
+resolution = [24, 24, 24]
+phase = { type = "isotropic" }
+[method]
+name = "raymarch"
+)",
+                                  {std::string("medium.0.extinction_per_m=") + extinction,
+                                   std::string("camera.position_m=") + at}));
+        for (const std::string& line : p.report.warnings)
+            if (line.find("camera_deep") != std::string::npos) return true;
+        return false;
+    };
+    CHECK(warns("0.05", "[0, 0, 0]"));
+    CHECK(!warns("0.05", "[0, -2000, 0]"));
+    CHECK(!warns("0.05", "[0, -480, 0]"));
+    CHECK(!warns("0.005", "[0, 0, 0]"));
 }
 
 TEST_CASE("a medium that no ray meets is a warning in every method") {

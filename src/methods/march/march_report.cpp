@@ -313,7 +313,11 @@ public:
         report.sweep = state.light.sun.difference;
         const std::vector<SkyLevel>& levels = state.light.ordinates.sky.levels;
         if (!state.choice.settings.scattering.ordinates) return;
-        if (levels.empty()) tell_ordinates(state.light.ordinates.nodes, report);
+        const OrdinateNodes& nodes = state.light.ordinates.nodes;
+        if (levels.empty()) tell_ordinates(nodes, report);
+        if (levels.empty())
+            report.counters.emplace_back("camera_deep",
+                                         is_deep(nodes, state.light.sky.camera) ? 1 : 0);
         for (const SkyLevel& level : levels) tell_ordinates(level.nodes, report);
     }
 

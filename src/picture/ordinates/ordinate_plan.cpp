@@ -98,6 +98,19 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, arrays::beam_tables(std::uint64_t(s.channels) * (s.points ? 2 : 1), Stage::kShadow));
 }
 
+bool is_deep(const OrdinateNodes& nodes, const CameraParams& camera) {
+    constexpr double kThickNode = 1, kDeep = 5;
+    if (!(nodes.depth > kThickNode)) return false;
+    double edge = __builtin_inf(), metres = __builtin_inf();
+    for (const float per_metre : nodes.grid.per_metre) edge = std::min(edge, 1 / double(per_metre));
+    for (int a = nodes.periodic ? 2 : 0; a < 3; ++a) {
+        const double at = double(camera.origin[a]);
+        const double whole = nodes.grid.size[a] / double(nodes.grid.per_metre[a]);
+        metres = std::min(metres, std::min(at, whole - at));
+    }
+    return metres * nodes.depth / edge > kDeep;
+}
+
 void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
     OrdinateFigures& out = report.ordinates;
     out.nodes += nodes.density.size();

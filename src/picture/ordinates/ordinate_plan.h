@@ -38,6 +38,10 @@ OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky)
 
 void add_ordinate_rows(const OrdinateSizes& sizes, MemoryTable& table);
 
+/// Whether a camera is so deep among nodes of more than one optical depth that what little light
+/// comes there is beyond the bounds of docs/ordinates.md.
+bool is_deep(const OrdinateNodes& nodes, const CameraParams& camera);
+
 /// Adds nodes to the report, with the iterations and the last change of the worst solution.
 void tell_ordinates(const OrdinateNodes& nodes, Report& report);
 
