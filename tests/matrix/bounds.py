@@ -24,14 +24,15 @@ KNOWN = [
     ("particles-billboards", {"inside"}, "boards that the camera is in"),
     ("particles", {"down"}, "little light comes straight up, and few harmonics ring"),
     ("particles-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
-    ("particles", {"map-patch"}, "a bright patch on particles", (-0.7, 0.4)),
+    ("particles", {"map-patch"}, "a bright patch on particles", (-0.7, 0.7)),
     ("particles-billboards", {"map-patch"}, "a bright patch seen through boards"),
     ("collectors-billboards", {"down"}, "little light comes straight up, and few harmonics ring"),
     ("raymarch", {"inside", "coloured"}, "deep within a colour that is absorbed"),
+    ("raymarch", {"thick", "coloured"}, "a colour that a thick medium absorbs", (-0.7, 3.0)),
     ("raymarch", {"detail", "thick"}, "nodes are coarser than the detail of a thick medium", (-0.4, 0.4)),
     ("particles-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),
-    ("collectors-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 1.0)),
-    ("collectors-billboards", {"map-patch"}, "a bright patch seen through boards", (-0.8, 1.0)),
+    ("collectors-billboards", {"cloud"}, "a peak of droplets on boards", (-0.8, 3.0)),
+    ("collectors-billboards", {"map-patch"}, "a bright patch seen through boards", (-0.8, 1.5)),
     ("collectors-billboards", {"one-cell"}, "a board is wider than a box of one cell", (-0.6, 1.0)),
     ("photon-grid", {"down"}, "little light comes straight up, and few harmonics ring", (0.0, 1.0)),
     ("raymarch", {"solid", "periodic"}, "walls on the ground below a deck"),
@@ -45,7 +46,7 @@ KNOWN = [
 ] + [(column, {"depth", "coloured"}, "few harmonics ring where an image hides an absorbed colour's light", BRIGHT)
      for column in ("collectors", "photon-grid")
 ] + [(column, {"sun-corner"}, "an upright face that a low sun grazes") for column in ("collectors", "photon-grid")
-] + [(column, {"hg-0.97", other}, "a narrow peak and few harmonics", BRIGHT) for column in ("collectors", "photon-grid")
+] + [(column, {"hg-0.97", other}, "a narrow peak and few harmonics", (0.0, 3.0)) for column in ("collectors", "photon-grid")
      for other in ("map-patch", "coloured")
 ] + [("optical-depth", set(), "an appearance, as its report says")]
 
