@@ -51,13 +51,12 @@ Status choose_scattering(const FrameView& view, MarchChoice& choice) {
                              "without");
 }
 
-namespace {
-
-/// Of thick voxels depths at the places that are lit are found by rays.
 const SunDepth* sun_of_nodes(const Medium& medium, const MarchState& state) {
     const bool read = has_thin_voxels(medium) && !state.choice.march_light;
     return read ? &state.light.sun.nodes : nullptr;
 }
+
+namespace {
 
 OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& state) {
     OrdinateAsk ask;

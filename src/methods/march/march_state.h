@@ -155,6 +155,9 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
                        MarchState& state);
 /// Memory for any lights and cameras. kLimit: out of memory.
 Status reserve_march_ordinates(MarchOrdinates& out);
+/// Depths to the sun that ordinates read; null: of thick voxels they are found by rays, at the
+/// places that are lit.
+const SunDepth* sun_of_nodes(const Medium& medium, const MarchState& state);
 /// Whether the optical depth to the sun is nearly linear from voxel to voxel.
 bool has_thin_voxels(const Medium& medium);
 /// Light that begins in the box: of these lamps, of media that shine.

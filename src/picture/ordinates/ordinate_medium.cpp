@@ -145,32 +145,48 @@ NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
     return node_samples(grid, samples_within(grid, medium)).fine;
 }
 
-void average_samples(const Context& context, OrdinateNodes& nodes) {
+void average_samples(const Context& context, const Buffer<float>& from, OrdinateNodes& nodes) {
     const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     parallel_each(context.threads, nodes.density.size(), [&](std::size_t i) {
         float sum = 0;
-        each_sample(nodes.grid, samples, i, [&](std::size_t s) { sum += nodes.samples[s]; });
+        each_sample(nodes.grid, samples, i, [&](std::size_t s) { sum += from[s]; });
         nodes.density[i] = sum * samples.share;
     });
 }
+
+namespace {
+
+std::uint64_t samples_held(const NodeSamples& samples, std::uint64_t filled) {
+    std::uint64_t out = filled;
+    for (const int within : samples.within) out *= std::uint64_t(within);
+    return out;
+}
+
+}  // namespace
 
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                         OrdinateNodes& out) {
     out.within = samples_within(out.grid, medium);
     const NodeSamples samples = node_samples(out.grid, out.within);
-    PILEUS_TRY(allocate(arrays::ordinate_densities(node_count(samples.fine)), out.samples));
+    Buffer<float> all;
+    PILEUS_TRY(allocate(arrays::ordinate_all_densities(node_count(samples.fine)), all));
     PILEUS_TRY(allocate(arrays::ordinate_nodes(node_count(out.grid), Stage::kWrite), out.density));
     const MediumView view = make_medium_view(medium, majorants);
-    parallel_each(context.threads, out.samples.size(), [&](std::size_t i) {
-        out.samples[i] = density_at(view, sample_place(samples, i));
-    });
-    average_samples(context, out);
+    parallel_each(context.threads, all.size(),
+                  [&](std::size_t i) { all[i] = density_at(view, sample_place(samples, i)); });
+    average_samples(context, all, out);
     std::uint64_t filled = 0;
     for (const float density : out.density.span()) filled += density > 0 ? 1 : 0;
     PILEUS_TRY(allocate(arrays::ordinate_places(filled, Stage::kWrite), out.filled));
     filled = 0;
     for (std::size_t i = 0; i < out.density.size(); ++i)
         if (out.density[i] > 0) out.filled[filled++] = std::int32_t(i);
+    out.by_filled = true;
+    PILEUS_TRY(allocate(arrays::ordinate_densities(samples_held(samples, filled)), out.samples));
+    parallel_each(context.threads, filled, [&](std::size_t n) {
+        each_held_sample(out, samples, n,
+                         [&](std::size_t s, std::size_t held) { out.samples[held] = all[s]; });
+    });
     PILEUS_TRY(find_rim(context, medium.grid.periodic, out));
     return sample_parts(context, medium, majorants, samples, out);
 }
@@ -190,16 +206,18 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
                   const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
                   Buffer<float>& depths) {
     const NodeSamples samples = node_samples(nodes.grid, nodes.within);
-    PILEUS_TRY(allocate(arrays::ordinate_depths(node_count(samples.fine)), depths));
+    const std::uint64_t held =
+        sun != nullptr ? samples_held(samples, nodes.filled.size()) : node_count(samples.fine);
+    PILEUS_TRY(allocate(arrays::ordinate_depths(held), depths));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.nodes = samples.fine;
     for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
     if (sun != nullptr)
         parallel_each(context.threads, nodes.filled.size(), [&](std::size_t n) {
-            each_sample(nodes.grid, samples, std::size_t(nodes.filled[n]), [&](std::size_t s) {
-                if (nodes.samples[s] > 0)
-                    depths[s] = depth_at_sample(*sun, samples, s, k.medium.periodic != 0);
+            each_held_sample(nodes, samples, n, [&](std::size_t s, std::size_t at) {
+                if (nodes.samples[at] > 0)
+                    depths[at] = depth_at_sample(*sun, samples, s, k.medium.periodic != 0);
             });
         });
     else
@@ -214,16 +232,18 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
 
 namespace {
 
-/// Mean irradiance on what lies in a node; `depth`: that counts, of a sample.
+/// Mean irradiance on what lies in a filled node; depth(index of a sample, where it is held): that
+/// counts.
 template <class Depth>
 float light_in_node(const Medium& medium, const OrdinateNodes& nodes, const NodeSamples& samples,
-                    const SampleWay& way, int channel, std::size_t node, const Depth& depth) {
-    const float rest = ordinate_rest(nodes, nodes.parts, channel, node);
+                    const SampleWay& way, int channel, std::size_t filled, const Depth& depth) {
+    const float rest =
+        ordinate_rest(nodes, nodes.parts, channel, std::size_t(nodes.filled[filled]));
     float light = 0, mass = 0;
-    each_sample(nodes.grid, samples, node, [&](std::size_t s) {
-        const float density = nodes.samples[s];
+    each_held_sample(nodes, samples, filled, [&](std::size_t s, std::size_t at) {
+        const float density = nodes.samples[at];
         if (!(density > 0)) return;
-        light += density * light_in_sample(way, rest * medium.sigma * density, depth(s));
+        light += density * light_in_sample(way, rest * medium.sigma * density, depth(s, at));
         mass += density;
     });
     return mass > 0 ? light / mass : 0.0f;
@@ -232,15 +252,16 @@ float light_in_node(const Medium& medium, const OrdinateNodes& nodes, const Node
 }  // namespace
 
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
-                 const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam) {
+                 const Lighting& lighting, int channel, bool rays, const Buffer<float>& depths,
+                 float* beam) {
     const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     const SampleWay way(samples, {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]});
     parallel_each(context.threads, nodes.filled.size(), [&](std::size_t filled) {
         const auto i = std::size_t(nodes.filled[filled]);
-        const float light =
-            light_in_node(medium, nodes, samples, way, channel, i, [&](std::size_t s) {
-                return ordinate_rest(nodes, nodes.sunward, channel, i) * depths[s];
-            });
+        const float sunward = ordinate_rest(nodes, nodes.sunward, channel, i);
+        const float light = light_in_node(
+            medium, nodes, samples, way, channel, filled,
+            [&](std::size_t s, std::size_t at) { return sunward * depths[rays ? s : at]; });
         beam[filled] = light * (nodes.seen.empty() ? 1.0f : nodes.seen[i]);
     });
 }
@@ -257,9 +278,8 @@ void follow_nodes(const Context& context, const Medium& medium, const OrdinateNo
         const std::size_t due = first < count ? (count - first + every - 1) / every : 0;
         parallel_each(context.threads, due, [&](std::size_t n) {
             const std::size_t filled = first + n * every;
-            const auto node = std::size_t(nodes.filled[filled]);
-            beam[filled] =
-                light_in_node(medium, nodes, samples, way, channel, node, [&](std::size_t s) {
+            beam[filled] = light_in_node(
+                medium, nodes, samples, way, channel, filled, [&](std::size_t s, std::size_t) {
                     return rest * depth_at_sample(sun, samples, s, nodes.periodic);
                 });
         });

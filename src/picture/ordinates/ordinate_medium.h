@@ -44,6 +44,17 @@ void each_sample(const NodeGrid& grid, const NodeSamples& samples, std::size_t n
                     at[0] * w[0] + x);
 }
 
+/// Calls use(index of a sample, its place in OrdinateNodes::samples) for those within filled node
+/// `filled`.
+template <class Use>
+void each_held_sample(const OrdinateNodes& nodes, const NodeSamples& samples, std::size_t filled,
+                      const Use& use) {
+    std::size_t held =
+        filled * std::size_t(samples.within[0] * samples.within[1] * samples.within[2]);
+    each_sample(nodes.grid, samples, std::size_t(nodes.filled[filled]),
+                [&](std::size_t s) { use(s, nodes.by_filled ? held++ : s); });
+}
+
 /// Place of a sample, box-local metres.
 inline Vec<float> sample_place(const NodeSamples& samples, std::size_t i) {
     const NodeGrid& fine = samples.fine;
@@ -63,23 +74,25 @@ struct SampleWay {
 /// of the depth from its middle to the light.
 float light_in_sample(const SampleWay& way, float per_metre, float depth);
 
-/// Densities of nodes, which are means of their samples'.
-void average_samples(const Context& context, OrdinateNodes& nodes);
+/// Densities of nodes, which are means of those of their samples, [sample of the whole grid].
+void average_samples(const Context& context, const Buffer<float>& from, OrdinateNodes& nodes);
 
 /// Densities of nodes and samples within them, and parts of media. kLimit: out of memory.
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                         OrdinateNodes& out);
 
-/// Optical depths towards the sun from samples that hold medium; of nodes which media they are of.
-/// kLimit: out of memory.
+/// Optical depths towards the sun from samples that hold medium, held as their densities are; by
+/// rays, where `sun` is null, of the whole grid. Of nodes which media they are of. kLimit: out of
+/// memory.
 Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
                   Buffer<float>& depths);
 
 /// Mean irradiance of the sun on what lies in a node, of an irradiance of 1: over each sample's
-/// part of the node it falls along the sun's way.
+/// part of the node it falls along the sun's way. `rays`: depths are of the whole grid.
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
-                 const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam);
+                 const Lighting& lighting, int channel, bool rays, const Buffer<float>& depths,
+                 float* beam);
 
 /// The same of the nodes whose turn it is, of one medium without solids.
 void follow_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,

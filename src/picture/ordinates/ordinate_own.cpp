@@ -23,7 +23,7 @@ LampSight<float> sight_of(const LampParams& lamp, const Vec<float>& place) {
 
 /// Adds moments of a lamp's light on what lies in a node: its mean over samples of the density.
 void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const LampNodes& lamps,
-              std::size_t which, float sigma, float rest, float light, std::size_t node,
+              std::size_t which, float sigma, float rest, float light, std::size_t filled,
               float (&moments)[kOrdinateMoments]) {
     const LampParams& lamp = lamps.lamps[which];
     const float* depths = lamps.optical_depth.data() + which * std::size_t(node_count(lamps.grid));
@@ -31,8 +31,8 @@ void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const Lamp
     const float* cells = samples.fine.per_metre;
     const float least = 0.25f / std::max(cells[0], std::max(cells[1], cells[2]));
     float mass = 0, sum[kOrdinateMoments] = {};
-    each_sample(nodes.grid, samples, node, [&](std::size_t s) {
-        const float density = nodes.samples[s];
+    each_held_sample(nodes, samples, filled, [&](std::size_t s, std::size_t at) {
+        const float density = nodes.samples[at];
         mass += density;
         const Vec<float> place = sample_place(samples, s);
         const LampSight<float> sight = sight_of(lamp, place);
@@ -75,7 +75,7 @@ Status own_light(const Context& context, const Medium& medium, const OrdinateNod
             const LampParams& lamp = ask.lamps->lamps[l];
             const float light = set.own == kLampStrength ? lamp.strength : lamp.light[channel];
             if (light > 0)
-                add_lamp(nodes, samples, *ask.lamps, l, medium.sigma, rest, light, i, moments);
+                add_lamp(nodes, samples, *ask.lamps, l, medium.sigma, rest, light, n, moments);
         });
         for (std::size_t m = 0; m < std::size_t(nodes.media); ++m) {
             const float part = nodes.media == 1 ? 1.0f : nodes.parts[m * count + i];

@@ -15,6 +15,7 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
     out.filled = known ? made.filled.size() : out.nodes;
     out.rim = known ? made.rim.size() : out.nodes;
     out.samples = known ? made.samples.size() : max_ordinate_samples(medium);
+    out.all_samples = known ? node_count(ordinate_samples(made.grid, medium)) : out.samples;
     out.larger = known ? made.half.nodes.density.size() : out.nodes / 2 + 1;
     out.larger_filled = known ? made.half.nodes.filled.size() : out.larger;
     out.media = medium.count;
@@ -58,8 +59,8 @@ void add_larger_rows(const OrdinateSizes& s, MemoryTable& t) {
                    "ordinates: larger nodes", Stage::kShadow, Stage::kWrite));
     add(t, renamed(arrays::ordinate_parts(s.larger, s.media), "ordinates: parts in larger nodes",
                    Stage::kShadow, Stage::kWrite));
-    add(t, renamed(arrays::ordinate_work(s.larger), "ordinates: larger nodes at work",
-                   Stage::kShadow, Stage::kShadow));
+    add(t, renamed(arrays::ordinate_work(s.larger, s.larger_filled),
+                   "ordinates: larger nodes at work", Stage::kShadow, Stage::kShadow));
     add(t, renamed(arrays::ordinate_nodes(3 * s.larger_filled, Stage::kShadow),
                    "ordinates: numbers of these", Stage::kShadow, Stage::kShadow));
     add(t, renamed(arrays::ordinate_own(s.larger_filled, s.own), "ordinates: lamps of these",
@@ -74,13 +75,15 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, several(s.levels, arrays::ordinate_light(s.nodes, shown, s.media)));
     add(t, arrays::ordinate_near(s.nodes, shown, s.moments));
     add(t, arrays::ordinate_together(s.filled, s.together && s.sets > 1));
-    add(t, arrays::ordinate_work(s.nodes));
+    add(t, arrays::ordinate_work(s.nodes, s.filled));
     add(t, arrays::ordinate_parts(s.nodes, s.media));
     add(t, renamed(arrays::ordinate_parts(s.nodes, s.media), "ordinates: parts of the sun",
                    Stage::kShadow, Stage::kWrite));
     add(t, arrays::ordinate_part_work(s.filled, s.media));
     add(t, several(s.levels, arrays::ordinate_densities(s.samples)));
-    add(t, arrays::ordinate_depths(s.sunlit ? s.samples : 0));
+    add(t, arrays::ordinate_all_densities(s.all_samples));
+    const std::uint64_t depths = s.rays && s.levels == 1 ? s.all_samples : s.samples;
+    add(t, arrays::ordinate_depths(s.sunlit ? depths : 0));
     add(t, several(s.levels, arrays::ordinate_nodes(s.nodes, Stage::kWrite)));
     add(t, renamed(arrays::ordinate_nodes(s.nodes, Stage::kShadow), "ordinates: numbers at work",
                    Stage::kShadow, Stage::kShadow));

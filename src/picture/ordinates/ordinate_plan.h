@@ -11,6 +11,8 @@ namespace pileus {
 
 struct OrdinateSizes {
     std::uint64_t nodes = 0, filled = 0, rim = 0, samples = 0;
+    std::uint64_t all_samples = 0;                ///< of empty nodes, too; of nodes in a box
+    bool rays = true;                             ///< depths to the sun are found by rays
     std::uint64_t larger = 0, larger_filled = 0;  ///< of nodes of twice the size
     std::uint64_t levels = 1;                     ///< of a sky in place, each with so many nodes
     std::uint64_t ring = 0;                       ///< nodes around one

@@ -25,21 +25,21 @@ struct Work {
     float* changes[kMixedIterations];  ///< differences of changes
 };
 
-Work share_work(float* from, std::size_t nodes) {
+Work share_work(float* from, std::size_t nodes, std::size_t filled) {
     Work w{};
-    const auto take = [&](std::size_t arrays) {
+    const auto take = [&](std::size_t numbers) {
         float* own = from;
-        from += arrays * nodes;
+        from += numbers;
         return own;
     };
-    w.radiance = take(kOrdinates);
-    w.pass = take(kOrdinateClasses);
-    w.mean = take(kOrdinateClasses);
-    w.last = take(kSlowMoments);
-    w.before = take(kSlowMoments);
-    for (float*& step : w.steps) step = take(kSlowMoments);
-    w.last_change = take(1);
-    for (float*& change : w.changes) change = take(1);
+    w.radiance = take(kOrdinates * nodes);
+    w.pass = take(kOrdinateClasses * nodes);
+    w.mean = take(kOrdinateClasses * nodes);
+    w.last = take(kSlowMoments * filled);
+    w.before = take(kSlowMoments * filled);
+    for (float*& step : w.steps) step = take(kSlowMoments * filled);
+    w.last_change = take(filled);
+    for (float*& change : w.changes) change = take(filled);
     return w;
 }
 
@@ -232,9 +232,9 @@ Status set_work(const Context& context, const Medium& medium, const OrdinateCell
                 const Lighting& lighting, const OrdinateSources& from, OrdinateSolver& solver,
                 const OrdinateSet& set, float* moments, AtWork& a) {
     const std::size_t count = nodes.filled.size(), all = nodes.density.size();
-    PILEUS_TRY(allocate_once(arrays::ordinate_work(all), solver.work));
+    PILEUS_TRY(allocate_once(arrays::ordinate_work(all, count), solver.work));
     PILEUS_TRY(allocate_once(arrays::ordinate_places(count, Stage::kShadow), solver.place_x));
-    const Work w = a.work = share_work(solver.work.data(), all);
+    const Work w = a.work = share_work(solver.work.data(), all, count);
     a.k = params_of(nodes, nodes.periodic, lighting, set, a.way);
     a.slice_floats = 0;
     for (const OrdinateSweep& s : a.k.sweep)

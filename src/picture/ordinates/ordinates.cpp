@@ -201,7 +201,8 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
             if (follow != nullptr)
                 follow_nodes(context, medium, out, lighting, set.channel, *ask.sun, *follow, beam);
             else
-                light_nodes(context, medium, out, lighting, set.channel, depths, beam);
+                light_nodes(context, medium, out, lighting, set.channel, ask.sun == nullptr, depths,
+                            beam);
             beam += ask.keeps_beam ? nodes : 0;
         }
         PILEUS_TRY(own_light(context, medium, out, ask, set, own, from.fixed));

@@ -114,6 +114,7 @@ struct OrdinateNodes : OrdinateCells {
     float per_near = 0;        ///< OrdinatesMarchParams::per_near
     Buffer<std::int32_t> rim;  ///< empty nodes beside filled ones
     Buffer<float> samples;     ///< of the density, within nodes
+    bool by_filled = false;    ///< as [filled][sample of a node]; else [sample of the whole grid]
     Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
     Buffer<float> beam;     ///< [set with a beam][filled]: sunlight, where it follows the sun
     Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
@@ -157,6 +158,10 @@ inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int 
 inline Array<float> ordinate_near(std::uint64_t nodes, std::uint64_t sets, bool any) {
     return {"ordinates: light near the camera", any ? bytes_of(sets * kOrdinateMoments, nodes) : 0,
             Stage::kShadow, Stage::kWrite};
+}
+/// Before it is known which nodes hold medium.
+inline Array<float> ordinate_all_densities(std::uint64_t samples) {
+    return {"ordinates: density within all nodes", samples, Stage::kMajorants, Stage::kMajorants};
 }
 /// Densities, which stay, or depths towards the sun.
 inline Array<float> ordinate_densities(std::uint64_t samples) {
@@ -213,13 +218,14 @@ inline Array<float> ordinate_ground(std::uint64_t cells, std::uint64_t sets) {
 inline Array<float> ordinate_ground_sun(std::uint64_t cells) {
     return {"ordinates: sunlight on the ground", cells, Stage::kShadow, Stage::kShadow};
 }
-/// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
-inline Array<float> ordinate_work(std::uint64_t nodes) {
-    return {"ordinates: one solution at work",
-            bytes_of(kOrdinates + 2 * kOrdinateClasses + 2 * kSlowMoments +
-                         kMixedIterations * (kSlowMoments + 1) + 1,
-                     nodes),
-            Stage::kShadow, Stage::kShadow};
+/// Radiance by direction and factors of ways; of those that hold medium what iterations are mixed
+/// of.
+inline Array<float> ordinate_work(std::uint64_t nodes, std::uint64_t filled) {
+    constexpr std::uint64_t kMixed = 2 * kSlowMoments + kMixedIterations * (kSlowMoments + 1) + 1;
+    return {
+        "ordinates: one solution at work",
+        sum_of_bytes(bytes_of(kOrdinates + 2 * kOrdinateClasses, nodes), bytes_of(kMixed, filled)),
+        Stage::kShadow, Stage::kShadow};
 }
 
 /// What enters a ring, by direction, and which nodes it is.

@@ -61,7 +61,7 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
     SkySampleParams k = sample_params(ask, level);
     run_host_rows(context, host_kernels(context.kernels).sky_sample_rows, k,
                   SkySampleBuffers{level.nodes.samples.data(), nullptr}, rows_in(k.places));
-    average_samples(context, level.nodes);
+    average_samples(context, level.nodes.samples, level.nodes);
     weigh_half(level.nodes);
     level.nodes.depth = node_depth(medium, level.nodes);
 }
