@@ -290,8 +290,8 @@ PILEUS_FN LampSurface<T> lamp_surface(const LampMarchParams& k, const Ray<T>& ra
     }
     const T height = ray.origin.z - k.ground_z;
     const T way = height / max_(T{} - ray.direction.z, all<T>(1e-18f));
-    s.met = ends & lnot(solid) & (ray.direction.z < 0.0f) & (height >= 0.0f) &
-            (abs_(opaque - way) <= way * 1e-4f);
+    const M_of<T> open = ends & lnot(solid), there = abs_(opaque - way) <= way * 1e-4f;
+    s.met = open & there & (ray.direction.z < 0.0f) & (height >= 0.0f);
     if (k.ground == 0) s.met = s.met & lnot(s.met);
     s.at = along(ray, select(s.met, opaque, T{}));
     s.at.z = all<T>(k.ground_z);
