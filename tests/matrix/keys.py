@@ -13,7 +13,7 @@ import re
 from runs import Refused, run, with_method
 
 # Tables of methods and their tools: other columns leave them as they are, so that one scene serves all.
-OWN = {"collectors": {"collectors"}, "photon_grid": {"photon-grid"}, "path": {"path"}, "raymarch": {"raymarch", "optical-depth"},
+OWN = {"collectors": {"collectors"}, "photon_grid": {"photon-grid"}, "path": {"path"}, "raymarch": {"raymarch"},
        "optical_depth": {"optical-depth"}, "particles": {"particles"}, "filter": {"path"}}
 # What a report says of the run itself, not of the picture.
 RUN = re.compile(r"(^|_)(s|ms|seconds)$|time|version|^scene$|^overrides$|^memory$")
