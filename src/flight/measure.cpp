@@ -31,7 +31,7 @@ Status set_frame(const Scene& scene, int number, Session& session) {
     const bool sinks =
         sun.elevation_deg > 45 || (sun.elevation_deg <= 0 && sun.elevation_deg > -80);
     sun.elevation_deg += sinks ? -0.1 * number : 0.1 * number;
-    // A sun that jumps, and one of another strength, have all light made anew.
+    // A sun that jumps, and another irradiance, take a whole solution.
     if (number == 3) sun.azimuth_deg += sun.azimuth_deg > 180 ? -5 : 5;
     for (float& channel : sun.irradiance) channel *= number == 5 ? 0.5f : 1.0f;
     // Clear air follows the sun, for which a flight has no memory.

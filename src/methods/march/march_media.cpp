@@ -9,18 +9,18 @@
 namespace pileus {
 namespace {
 
-/// Cells of the buffer; axes that the look leaves alone have the medium's.
-std::array<int, 3> sun_cells(const FrameView& view, const OpticalDepthSettings& look) {
-    std::array<int, 3> cells = view.world.medium.volume.size;
+/// Cells of the buffer, or one for each of the sun's wide nodes; axes that a look leaves alone have
+/// the medium's.
+std::array<int, 3> sun_cells(const FrameView& view, const MarchState& state) {
+    const Medium& medium = view.world.medium;
+    if (has_coarse_sun(view, state)) {
+        const NodeGrid nodes = wide_sun_depth_nodes(medium);
+        return {nodes.size[0], nodes.size[1], nodes.size[2]};
+    }
+    std::array<int, 3> cells = medium.volume.size;
     for (std::size_t a = 0; a < 3; ++a)
-        if (look.resolution[a] > 0) cells[a] = look.resolution[a];
+        if (state.choice.look->resolution[a] > 0) cells[a] = state.choice.look->resolution[a];
     return cells;
-}
-
-/// One for each of the sun's wide nodes.
-std::array<int, 3> wide_cells(const Medium& medium) {
-    const NodeGrid nodes = wide_sun_depth_nodes(medium);
-    return {nodes.size[0], nodes.size[1], nodes.size[2]};
 }
 
 }  // namespace
@@ -42,14 +42,13 @@ bool has_sun_grid(const FrameView& view, const MarchState& state) {
     const auto& look = state.choice.look;
     // A sun that is below the horizon may rise.
     if (!look || !view.scene.sun.present) return false;
-    return look->light_scale != 1 || sun_cells(view, *look) != view.world.medium.volume.size;
+    return look->light_scale != 1 || sun_cells(view, state) != view.world.medium.volume.size;
 }
 
 Grid sun_grid(const FrameView& view, const MarchState& state) {
     const Medium& medium = view.world.medium;
     if (!has_sun_grid(view, state)) return medium.grid;
-    if (has_coarse_sun(view, state)) return resampled_grid(medium, wide_cells(medium));
-    return resampled_grid(medium, sun_cells(view, *state.choice.look));
+    return resampled_grid(medium, sun_cells(view, state));
 }
 
 const Medium& marched_medium(const FrameView& view, const MarchState& state) {
@@ -101,15 +100,12 @@ Status cap_medium(const FrameView& view, MarchState& state) {
 Status make_lit_medium(const Context& context, const FrameView& view, MarchState& state) {
     MarchMedia& media = state.media;
     if (!has_sun_grid(view, state) || !media.lit.volume.density.empty()) return Status::ok();
-    const bool coarse = has_coarse_sun(view, state);
     const StageClock clock(context, "buffer cells");
     // Whole or not at all: what memory ended within is made anew.
     Medium lit;
-    const Medium& medium = marched_medium(view, state);
-    PILEUS_TRY(resample_medium(medium,
-                               coarse ? wide_cells(medium) : sun_cells(view, *state.choice.look),
-                               context.threads, arrays::lit_density(sun_grid(view, state)), lit));
-    if (!coarse) lit.sigma *= float(state.choice.look->light_scale);
+    PILEUS_TRY(resample_medium(marched_medium(view, state), sun_cells(view, state), context.threads,
+                               arrays::lit_density(sun_grid(view, state)), lit));
+    if (!has_coarse_sun(view, state)) lit.sigma *= float(state.choice.look->light_scale);
     PILEUS_TRY(make_majorants(lit, false, context, media.lit_majorants));
     media.lit = std::move(lit);
     return Status::ok();

@@ -185,7 +185,7 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     const CameraParams& camera = view.camera;
     if (!made.density.empty() && !moves) sizes.moments = sees_moments(medium, camera, made.grid);
     sizes.sunlit = view.lighting.sunlit;
-    sizes.rays = levels || sun_of_nodes(medium, state) == nullptr;
+    if (!levels) sizes.rays = sun_of_nodes(medium, state) == nullptr;
     if (!levels && state.choice.hosted) sizes.beams = kMaxOrdinateBeams;
     sizes.points = !levels && may_have_lamps(view, state.choice);
     sizes.solids = !levels && view.world.solids.meshes;

@@ -41,6 +41,7 @@ OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky)
     for (const int n : sky.size) out.larger *= std::uint64_t((n + 1) / 2);
     out.larger_filled = out.larger;
     out.samples = sky_ordinate_samples(sky);
+    out.rays = false;
     NodeGrid grid{};
     std::copy_n(sky.size, 3, grid.size);
     if (sky.levels > 1) out.ring = ring_count(grid);
@@ -82,8 +83,7 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, arrays::ordinate_part_work(s.filled, s.media));
     add(t, several(s.levels, arrays::ordinate_densities(s.samples)));
     add(t, arrays::ordinate_all_densities(s.all_samples));
-    const std::uint64_t depths = s.rays && s.levels == 1 ? s.all_samples : s.samples;
-    add(t, arrays::ordinate_depths(s.sunlit ? depths : 0));
+    add(t, arrays::ordinate_depths(!s.sunlit ? 0 : s.rays ? s.all_samples : s.samples));
     add(t, several(s.levels, arrays::ordinate_nodes(s.nodes, Stage::kWrite)));
     add(t, renamed(arrays::ordinate_nodes(s.nodes, Stage::kShadow), "ordinates: numbers at work",
                    Stage::kShadow, Stage::kShadow));
