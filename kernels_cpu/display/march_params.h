@@ -170,6 +170,18 @@ struct BackgroundParams {
     NodeGrid shadow;         ///< of optical depths on the ground; size 0: rays look for themselves
     float shadow_origin[2];  ///< m, box-local
 };
+/// Light that falls on a surface from all around but the sun, over pi: harmonics of its normal.
+constexpr int kAroundTerms = 9;
+
+/// That light around nodes beside solids.
+struct AroundNodes {
+    NodeGrid nodes;  ///< over the medium's box; size 0: none
+    std::int32_t periodic;
+    std::int32_t count;          ///< nodes that it is known of
+    const std::int32_t* number;  ///< [node]: among them; -1: not
+    const float* light;          ///< [3][kAroundTerms][count]
+};
+
 struct BackgroundBuffers {
     const float* map;     ///< [3][cell], radiance
     float* colour;        ///< [3][pixel]; null: not wanted
@@ -177,6 +189,7 @@ struct BackgroundBuffers {
     /// [pixel]: of what stands at opaque_depth, which then is read; null: not wanted.
     float* shadow = nullptr;
     const float* ground_depth = nullptr;  ///< nodes of BackgroundParams::shadow, towards the sun
+    AroundNodes around{};
 };
 
 }  // namespace pileus

@@ -28,6 +28,14 @@ struct OrdinateSweep {
     std::int32_t length;   ///< which class of ways
 };
 
+/// A way to a node that solids end, wholly or in part, of one direction.
+struct OrdinateWall {
+    std::int32_t place;  ///< the node's
+    float weight[2][2];  ///< OrdinateSweep::weight, less what solids end
+    float sends;         ///< radiance of what ends it, times its share
+    float out, mean;     ///< of the node: what leaves it and what is within, while its row is swept
+};
+
 struct OrdinatesParams {
     std::int32_t size[3];  ///< nodes
     std::int32_t filled;   ///< of them, those that hold medium
@@ -46,13 +54,16 @@ struct OrdinatesBuffers {
     const std::int32_t* place;    ///< [filled]: of nodes, x fastest, then y
     const std::int32_t* place_x;  ///< [filled]: where slices are along x: y fastest, then z
     const float* pass;            ///< [class][place]: e^-t of the way through a node
-    const float* mean;            ///< [class][place]: (1 - e^-t) / t; 0: the node is empty
-    const float* beam;            ///< [filled]: irradiance of the beam; null: none
-    const float* fixed;           ///< [direction][filled]: source of lamps and media; null: none
-    const float* part;            ///< [medium][filled]: of extinction that counts; null: one medium
-    float* radiance;  ///< [direction][place]: source, then mean radiance; 0 in empty nodes
-    float* moments;   ///< [moment][filled]
-    float* slices;    ///< of one thread: ordinate_slice_floats
+    const float*
+        mean;  ///< [class][place]: (1 - e^-t) / t; 0: the node is empty and beside no solid
+    const float* beam;    ///< [filled]: irradiance of the beam; null: none
+    const float* fixed;   ///< [direction][filled]: source of lamps and media; null: none
+    const float* part;    ///< [medium][filled]: of extinction that counts; null: one medium
+    float* radiance;      ///< [direction][place]: source, then mean radiance; 0 in empty nodes
+    float* moments;       ///< [moment][filled]
+    float* slices;        ///< of one thread: ordinate_slice_floats
+    OrdinateWall* walls;  ///< by direction, in the order of its sweep; null: none
+    const std::int32_t* first_wall;  ///< [direction + 1]
 };
 
 /// Floats of a row of a slice with what lies beyond its ends, and of two slices.

@@ -85,16 +85,28 @@ struct OrdinateRow {
     float *radiance, *out;
 };
 template <class T>
+PILEUS_FN T ordinate_enters(const float (&weight)[2][2], const OrdinateRow& r, std::int64_t i) {
+    return (load_row<T>(r.before[0] + i) * weight[0][0] +
+            load_row<T>(r.before[0] + i + 1) * weight[0][1]) +
+           (load_row<T>(r.before[1] + i) * weight[1][0] +
+            load_row<T>(r.before[1] + i + 1) * weight[1][1]);
+}
+template <class T>
 PILEUS_FN void ordinate_nodes(const OrdinateSweep& s, const OrdinateRow& r, std::int64_t i) {
-    const T in = (load_row<T>(r.before[0] + i) * s.weight[0][0] +
-                  load_row<T>(r.before[0] + i + 1) * s.weight[0][1]) +
-                 (load_row<T>(r.before[1] + i) * s.weight[1][0] +
-                  load_row<T>(r.before[1] + i + 1) * s.weight[1][1]);
+    const T in = ordinate_enters<T>(s.weight, r, i);
     const T source = load_row<T>(r.radiance + i), over = in - source;
     const T out = source + over * load_row<T>(r.pass + i);
     const T mean = source + over * load_row<T>(r.mean + i);
     __builtin_memcpy(r.out + i, &out, sizeof out);
     __builtin_memcpy(r.radiance + i, &mean, sizeof mean);
+}
+
+/// Node `i` of a row behind a wall: what it will hold, before the row takes its source.
+PILEUS_FN void ordinate_behind(const OrdinateRow& r, std::int64_t i, OrdinateWall& wall) {
+    const float in = ordinate_enters<float>(wall.weight, r, i) + wall.sends;
+    const float source = r.radiance[i], over = in - source;
+    wall.out = source + over * r.pass[i];
+    wall.mean = source + over * r.mean[i];
 }
 
 /// One direction through all nodes.
@@ -119,6 +131,8 @@ PILEUS_FN void ordinate_sweep(const OrdinatesParams& k, const OrdinatesBuffers& 
     for (int i = 0; i < 2 && other_below && s.axis != 2; ++i)
         fill(b.slices + i * slice, row, k.below[j]);
     if (other_below && s.axis == 2) fill(b.slices, slice, k.below[j]);
+    std::int32_t wall = b.walls != nullptr ? b.first_wall[j] : 0;
+    const std::int32_t walls = b.walls != nullptr ? b.first_wall[j + 1] : 0;
     for (std::int32_t turn = 0; turn < slices; ++turn) {
         if (other_below && s.axis == 2 && turn == 1) fill(b.slices, slice, k.enters[j]);
         const float* before = b.slices + (turn & 1) * slice;
@@ -136,9 +150,17 @@ PILEUS_FN void ordinate_sweep(const OrdinatesParams& k, const OrdinatesBuffers& 
             r.mean = b.mean + s.length * nodes + at;
             r.radiance = b.radiance + j * nodes + at;
             r.out = out + (y + first) * row + first;
+            const std::int32_t own = wall;
+            for (; wall < walls && std::uint64_t(b.walls[wall].place - at) < std::uint64_t(n);
+                 ++wall)
+                ordinate_behind(r, b.walls[wall].place - at, b.walls[wall]);
             std::int64_t i = 0;
             for (; i + W <= n; i += W) ordinate_nodes<F<W>>(s, r, i);
             for (; i < n; ++i) ordinate_nodes<float>(s, r, i);
+            for (std::int32_t w = own; w < wall; ++w) {
+                r.out[b.walls[w].place - at] = b.walls[w].out;
+                r.radiance[b.walls[w].place - at] = b.walls[w].mean;
+            }
             for (i = n; wraps && i < row; ++i) r.out[i] = r.out[i - n];
         }
     }

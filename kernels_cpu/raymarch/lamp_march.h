@@ -323,10 +323,14 @@ PILEUS_FN void light_surface(const LampMarchParams& k, const LampMarchBuffers& b
                 lit = lit & lnot(behind_solids(k.solids, s.at, sight.way, sight.distance, lit));
             if (!any(lit)) return;
             const T tau = depth_to_lamp(k.medium, s.at, sight, lit);
-            const T light = cosine * sight.share * exp_(T{} - tau);
-            for (int c = 0; c < 3; ++c)
-                colour[c] =
-                    colour[c] + select(lit, light * (s.albedo[c] * kInvPi), T{}) * lamp.light[c];
+            const T light = cosine * sight.share;
+            T through{};
+            for (int c = 0; c < 3; ++c) {
+                if (c == 0 || k.surface_rest[c] != k.surface_rest[0])
+                    through = exp_(T{} - tau * k.surface_rest[c]);
+                colour[c] = colour[c] + select(lit, light * through * (s.albedo[c] * kInvPi), T{}) *
+                                            lamp.light[c];
+            }
         };
         if (!(lamp.radius > 0.0f)) {
             add(see_lamp(lamp, s.at));

@@ -32,6 +32,7 @@ struct LampMarchParams {
     std::int32_t ordinates;
     float rest[kMaxMedia][3];  ///< as OrdinatesMarchParams has it
     float peak_turn;           ///< 1 - cos of the peak's width
+    float surface_rest[3];     ///< of the extinction, what keeps light from surfaces
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp

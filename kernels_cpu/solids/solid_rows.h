@@ -96,6 +96,74 @@ PILEUS_FN void changed_around(const SolidRowsParams& k, const BackgroundBuffers&
     }
 }
 
+/// Light on a surface at `at` from all around but the sun, over pi, as the nodes before it have it.
+/// Returns how far it counts: 0 where no such node is known, less than 1 within a node of a face of
+/// the box.
+PILEUS_CALLED float light_of_nodes(const AroundNodes& a, bool on_ground, const float (&at)[3],
+                                   const float (&normal)[3], float (&out)[3]) {
+    constexpr float kBefore = 0.6f;  // nodes before the surface
+    float h[3], step = 0, counts = 1;
+    for (int i = 0; i < 3; ++i) {
+        h[i] = at[i] * a.nodes.per_metre[i];
+        step = larger(step, abs_(normal[i]) * a.nodes.per_metre[i]);
+        if (a.periodic != 0 && i < 2) continue;
+        if (!(i == 2 && on_ground)) counts = smaller(counts, h[i]);
+        counts = smaller(counts, float(a.nodes.size[i]) - h[i]);
+    }
+    if (!(counts > 0.0f)) return 0;
+    std::int32_t low[3];
+    float share[3];
+    for (int i = 0; i < 3; ++i) {
+        const float p = h[i] + kBefore / step * normal[i] * a.nodes.per_metre[i] - 0.5f;
+        low[i] = floor_int(p);
+        share[i] = p - float(low[i]);
+    }
+    float whole = 0, k[3][kAroundTerms] = {};
+    for (int corner = 0; corner < 8; ++corner) {
+        std::int32_t p[3];
+        float weight = 1, before = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int far = corner >> i & 1;
+            p[i] = low[i] + far;
+            weight *= far != 0 ? share[i] : 1 - share[i];
+            const std::int32_t n = a.nodes.size[i];
+            const bool wraps = a.periodic != 0 && i < 2;
+            if (!wraps) p[i] = p[i] < 0 ? 0 : p[i] >= n ? n - 1 : p[i];
+            before += (float(p[i]) + 0.5f - h[i]) * normal[i] / a.nodes.per_metre[i];
+            if (wraps) p[i] = (p[i] % n + n) % n;
+        }
+        const std::int32_t node =
+            a.number[(std::int64_t(p[2]) * a.nodes.size[1] + p[1]) * a.nodes.size[0] + p[0]];
+        if (node < 0 || !(before > 0.0f)) continue;
+        whole += weight;
+        for (int c = 0; c < 3; ++c)
+            for (int m = 0; m < kAroundTerms; ++m)
+                k[c][m] += weight * a.light[(c * kAroundTerms + m) * std::int64_t(a.count) + node];
+    }
+    if (!(whole > 1e-3f)) return 0;
+    const Vec<float> n{normal[0], normal[1], normal[2]};
+    for (int c = 0; c < 3; ++c) out[c] = around_light(k[c], n) / whole;
+    return smaller(counts, 1);
+}
+
+/// In place of light from all around, where nodes tell it.
+template <class T>
+PILEUS_FN void around_from_nodes(const SolidRowsParams& k, const BackgroundBuffers& b,
+                                 const LitSurface<T>& s, T (&around)[3]) {
+    const bool on_ground =
+        k.back.ground != 0 && k.back.ground_z * b.around.nodes.per_metre[2] > -0.5f;
+    for (int i = 0; i < width_of<T>; ++i) {
+        if ((bits_of(s.solid) >> i & 1u) == 0) continue;
+        const float at[3] = {lane(s.place.at.x, i), lane(s.place.at.y, i), lane(s.place.at.z, i)};
+        const float normal[3] = {lane(s.place.normal.x, i), lane(s.place.normal.y, i),
+                                 lane(s.place.normal.z, i)};
+        float light[3] = {};
+        const float counts = light_of_nodes(b.around, on_ground, at, normal, light);
+        for (int c = 0; c < 3; ++c)
+            set_lane(around[c], i, lane(around[c], i) + counts * (light[c] - lane(around[c], i)));
+    }
+}
+
 /// Radiance of what the rays meet, channel by channel.
 template <class T>
 PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& b,
@@ -112,14 +180,16 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
     Vec<T> sky{all<T>(k.back.sky[0]), all<T>(k.back.sky[1]), all<T>(k.back.sky[2])};
     if (k.back.sky_map.columns > 0) sky = map_radiance(k.back.sky_map, ray.direction);
     const T above[3] = {sky.x, sky.y, sky.z};
+    T around[3];
+    for (int c = 0; c < 3; ++c)
+        around[c] = max_(around_light(k.around[c], s.place.normal) + changed[c], T{});
+    if (b.around.count > 0) around_from_nodes(k, b, s, around);
     for (int c = 0; c < 3; ++c) {
         const T sun =
             k.sun_heights.rows != 0 ? sun_at(k.sun_heights, s.place.at.z, c) : all<T>(k.sun[c]);
         const T ground =
             k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight[c] + scattered[c];
-        const T solid =
-            s.place.albedo[c] * (max_(around_light(k.around[c], s.place.normal) + changed[c], T{}) +
-                                 sun * s.sunlight[c]);
+        const T solid = s.place.albedo[c] * (around[c] + sun * s.sunlight[c]);
         out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
     }
 }

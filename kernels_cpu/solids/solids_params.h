@@ -43,9 +43,6 @@ constexpr int kSolidDepth = 72;
 /// Most repetitions that a ray looks through: a level one between them would never come to an end.
 constexpr int kMaxSolidCopies = 4096;
 
-/// Light that falls on a surface from all around but the sun, over pi: harmonics of its normal.
-constexpr int kAroundTerms = 9;
-
 /// Rows of what lies behind the media where there are solids.
 struct SolidRowsParams {
     BackgroundParams back;

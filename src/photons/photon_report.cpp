@@ -161,7 +161,7 @@ void explain_photon_picture(const FrameView& view, const PhotonState& state, con
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(world.medium)) plan.leave_out("absorption", "albedo 1");
     note_solids(world.solids, view.environment.depth, plan);
-    note_surface_light(world.solids, false, plan);
+    note_surface_light(world.solids, false, false, plan);
     note_upsampling(view.scene, state.picture.thin, plan);
     note_depths(state.lights.lighting, view.wants_depth(), plan);
     if (!state.error_layer) plan.leave_out("batches and second moments", "no error layer");

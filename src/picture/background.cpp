@@ -7,10 +7,7 @@
 #include "src/world/solids/solids.h"
 
 namespace pileus {
-namespace {
 
-/// Adds light of radiance times solid angle `power` from direction `w` to the harmonics of the
-/// irradiance over pi; degrees 0, 1, 2 of the clamped cosine are 1, 2/3, 1/4.
 void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]) {
     const double flat = power / (4 * kPi64), bent = 5 * power / (16 * kPi64);
     k[0] += flat;
@@ -21,6 +18,8 @@ void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]) {
     k[7] += bent * 0.75 * (w[0] * w[0] - w[1] * w[1]);
     k[8] += bent * 0.25 * (3 * w[2] * w[2] - 1);
 }
+
+namespace {
 
 /// Parts of a texel that wide, of four degrees at most: light from a wide one comes from all of it.
 int parts_of(double degrees) {

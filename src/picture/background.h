@@ -13,6 +13,10 @@ namespace pileus {
 BackgroundParams background_params(const MediumView& medium, const CameraParams& camera,
                                    const Lighting& light);
 
+/// Adds light of radiance times solid angle `power` from direction `w` to the harmonics of the
+/// irradiance over pi; degrees 0, 1, 2 of the clamped cosine are 1, 2/3, 1/4.
+void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]);
+
 /// Whether meshes, or an image of what stands there, may end rays.
 bool has_meshes(const Lighting& light);
 bool has_surfaces(const Lighting& light);

@@ -86,6 +86,8 @@ void add_background(DeviceArrays& a, BackgroundParams& k, BackgroundBuffers& b) 
     a.both(b.colour, 3 * pixels_in(k.camera));
     a.both(b.opaque_depth, pixels_in(k.camera));
     a.both(b.shadow, pixels_in(k.camera));
+    a.in(b.around.number, b.around.count > 0 ? product(b.around.nodes.size) : 0);
+    a.in(b.around.light, 3 * Size(kAroundTerms) * Size(b.around.count));
 }
 
 void add_layer(DeviceArrays& a, SkyParams& sky) {

@@ -34,6 +34,17 @@ inline void add_ordinates(const OrdinateNodes& ordinates,
     held["ordinates: parts of the media"] = ordinates.parts.bytes();
     held["ordinates: parts of the sun"] = ordinates.sunward.bytes();
     held["ordinates: shadow of solids"] = ordinates.seen.bytes();
+    {
+        const OrdinateWalls &own = ordinates.walls, &larger = ordinates.half.nodes.walls;
+        held["ordinates: ways that solids end"] = own.ways.bytes() + larger.ways.bytes();
+        held["ordinates: solids at ways"] = own.surfaces.bytes() + larger.surfaces.bytes();
+        for (const OrdinateWalls* w : {&own, &larger})
+            held["ordinates: numbers of ways"] +=
+                w->nodes.bytes() + w->begin.bytes() + w->of_node.bytes() + w->number.bytes();
+        held["ordinates: light of solids"] = own.sends.bytes() + own.around.bytes() +
+                                             own.shown.bytes() + larger.sends.bytes() +
+                                             own.sources.bytes() + larger.sources.bytes();
+    }
     held["beam by angle and depth"] = ordinates.peak.tables.bytes();
 }
 

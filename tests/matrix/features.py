@@ -83,6 +83,16 @@ def solid(s, r, d):
                                       "albedo": 0.4})
 
 
+def solid_within(s, r, d):
+    """A closed box that reaches into the medium from its foot."""
+    with open(f"{d}/tower.obj", "w") as file:
+        for z in (0, 450):
+            file.write(f"v -250 -250 {z}\nv 250 -250 {z}\nv 250 250 {z}\nv -250 250 {z}\n")
+        file.write("f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+    s.setdefault("solid", []).append({"file": "tower.obj", "position_m": [r.uniform(-200, 200), r.uniform(-200, 200), 500.0],
+                                      "albedo": r.choice([0.0, 0.5, 0.9])})
+
+
 def depth_image(s, r, d):
     w, h = s["camera"]["resolution"]
     edge = r.randrange(w)
@@ -217,6 +227,7 @@ FEATURES = [
     ("sphere", "[[light]] with radius_m, shadow_samples", "", sphere),
     ("emission", "medium.emission", "", emission),
     ("solid", "[[solid]]", "", solid),
+    ("solid-within", "[[solid]]", "", solid_within),
     ("depth", "camera.depth, set_depth", "", depth_image),
     ("ground-white", "[ground]", "ground", white_ground),
     ("ground-none", "[ground]", "ground", no_ground),

@@ -103,6 +103,7 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
         k.beam_points = nodes.peak.points ? 1 : 0;
         for (int c = 0; c < 3; ++c) {
             k.beam_rest[c] = nodes.peak.rest[c];
+            k.surface_rest[c] = nodes.mean_rest[c];
             for (int i = 0; i < k.media; ++i) k.rest[i][c] = nodes.optics[i][c].rest;
         }
     }
@@ -131,7 +132,7 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(shadow, k, b);
     if (state.choice.settings.scattering.ordinates)
-        read_ground_light(state.light.ordinates.nodes, light, k, b);
+        read_ordinate_light(state.light.ordinates.nodes, light, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }

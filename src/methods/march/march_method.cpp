@@ -46,9 +46,9 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
         PILEUS_TRY(prepare_sky_ordinates(context, view.world.medium, view.world.layer.params,
                                          state_.choice.hosted, state_.light.ordinates.sky));
     else if (nodes)
-        PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants,
-                                     may_have_lamps(view, state_.choice),
-                                     state_.light.ordinates.nodes));
+        PILEUS_TRY(prepare_ordinates(
+            context, view.world.medium, media.majorants, ordinate_solids(view.lighting),
+            may_have_lamps(view, state_.choice), state_.light.ordinates.nodes));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
                                media.majorants.skip_block, context, media.coarse);
 }

@@ -145,10 +145,9 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (!state.choice.look) note_upsampling(scene, settings.thin, plan);
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(view.world.solids, view.environment.depth, plan);
-    note_surface_light(view.world.solids,
-                       settings.scattering.ordinates && !view.world.direct_sky &&
-                           view.lighting.has_bright_ground(),
-                       plan);
+    const bool nodes =
+        settings.scattering.ordinates && !view.world.direct_sky && settings.march.steps > 0;
+    note_surface_light(view.world.solids, nodes, nodes && view.lighting.has_bright_ground(), plan);
     note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
@@ -173,11 +172,12 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     const Medium& medium = view.world.medium;
     const OrdinateNodes& made = state.light.ordinates.nodes;
     const bool levels = view.world.direct_sky;
-    OrdinateSizes sizes = lit_ordinate_sizes(medium, view.lighting, made);
+    OrdinateSizes sizes = lit_ordinate_sizes(medium, view.lighting, view.world.solids, made);
     if (levels) {
         sizes = sky_level_sizes(medium, level_sizes(view, state.media.outlined_only));
         sizes.sets =
-            std::min(std::uint64_t(ordinate_sets(medium, view.lighting, false)), kMaxSkySets);
+            std::min(std::uint64_t(ordinate_sets(medium, view.lighting, false, medium.channels)),
+                     kMaxSkySets);
     }
     // Hosts have a spare level.
     if (levels && state.choice.hosted && sizes.levels > 1) ++sizes.levels;
@@ -188,7 +188,7 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     if (!levels) sizes.rays = sun_of_nodes(medium, state) == nullptr;
     if (!levels && state.choice.hosted) sizes.beams = kMaxOrdinateBeams;
     sizes.points = !levels && may_have_lamps(view, state.choice);
-    sizes.solids = !levels && view.world.solids.meshes;
+    sizes.solids = sizes.solids && !levels;
     add_ordinate_rows(sizes, t);
 }
 

@@ -16,7 +16,7 @@ Status fill_background(const Context& context, const FrameView& view, ParticlesS
     BackgroundParams k = background_params(make_medium_view(view.world.medium, state.majorants),
                                            state.camera, view.lighting);
     BackgroundBuffers b{nullptr, state.planes.background.data(), state.planes.opaque_depth.data()};
-    if (by_ordinates(state)) read_ground_light(state.ordinates, view.lighting, k, b);
+    if (by_ordinates(state)) read_ordinate_light(state.ordinates, view.lighting, k, b);
     return show_background(context, view.lighting, k, b);
 }
 
@@ -32,6 +32,7 @@ Status light_surfaces_by_lamps(const Context& context, const FrameView& view,
     LampMarchParams k =
         lamp_march_params(medium, state.majorants, view.lighting, state.camera, lamps, 0);
     k.media = 0;
+    if (by_ordinates(state)) std::copy_n(state.ordinates.mean_rest, 3, k.surface_rest);
     k.solids = solids.view();
     return add_lamp_light(context, medium, k, lamps, state.planes);
 }
@@ -64,9 +65,9 @@ Status ParticlesMethod::prepare(const Context& context, const FrameView& view) {
     const Medium& medium = view.world.medium;
     PILEUS_TRY(make_majorants(medium, false, context, state_.majorants));
     if (state_.settings.scattering == ParticleScattering::kByNodes && medium.sigma > 0)
-        PILEUS_TRY(prepare_ordinates(context, medium, state_.majorants,
-                                     state_.hosted || !view.scene.lights.empty(),
-                                     state_.ordinates));
+        PILEUS_TRY(
+            prepare_ordinates(context, medium, state_.majorants, ordinate_solids(view.lighting),
+                              state_.hosted || !view.scene.lights.empty(), state_.ordinates));
     const StageClock clock(context, "octree");
     PILEUS_TRY(make_particle_tree(view.world.particles, medium.low_m, state_.settings.leaf,
                                   context.threads, state_.tree));

@@ -108,10 +108,8 @@ void note_plan(const FrameView& view, const ParticlesState& state, Plan& plan) {
     else
         plan.leave_out("emission of particles", "medium.emission is 0");
     note_solids(view.world.solids, view.environment.depth, plan);
-    note_surface_light(view.world.solids,
-                       state.settings.scattering == ParticleScattering::kByNodes &&
-                           view.lighting.has_bright_ground(),
-                       plan);
+    const bool nodes = state.settings.scattering == ParticleScattering::kByNodes;
+    note_surface_light(view.world.solids, nodes, nodes && view.lighting.has_bright_ground(), plan);
     note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
@@ -178,7 +176,8 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
     if (lamps > 0 || state.outlined_only || has_own_light(view, state))
         add(t, arrays::particle_around(particles));
     if (state.settings.scattering == ParticleScattering::kByNodes) {
-        OrdinateSizes sizes = lit_ordinate_sizes(view.world.medium, view.lighting, state.ordinates);
+        OrdinateSizes sizes = lit_ordinate_sizes(view.world.medium, view.lighting,
+                                                 view.world.solids, state.ordinates);
         sizes.moments = false;
         sizes.sunlit = view.lighting.sunlit;
         sizes.points = state.hosted || !scene.lights.empty();

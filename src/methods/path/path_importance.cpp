@@ -180,7 +180,7 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
     Context context = asked;
     context.kernels = &host_kernels(asked.kernels);
     if (out.nodes.density.empty())
-        PILEUS_TRY(prepare_ordinates(context, medium, majorants, false, out.nodes));
+        PILEUS_TRY(prepare_ordinates(context, medium, majorants, {}, false, out.nodes));
     k.albedo = medium.optics[0].albedo[0];
     k.sky_whole = !(sky > 0) || (is_white(medium) && !light.ground.present) ? 1 : 0;
     k.sets = k.sky_whole != 0 ? 1 : 2;

@@ -121,6 +121,7 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
     k.medium = make_medium_view(medium, majorants);
     k.camera = camera;
     k.media = medium.count;
+    for (float& rest : k.surface_rest) rest = 1;
     for (int i = 0; i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
         k.phase[i] = optics.phase;

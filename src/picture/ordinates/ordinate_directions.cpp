@@ -7,6 +7,7 @@
 #include "kernels_cpu/light/sky_map.h"
 #include "src/base/angles.h"
 #include "src/picture/ordinates/ordinates.h"
+#include "src/world/solids/solids.h"
 
 namespace pileus {
 namespace {
@@ -144,9 +145,14 @@ bool ground_apart(const Lighting& light, bool ground) {
 
 }  // namespace
 
-int ordinate_sets(const Medium& medium, const Lighting& light, bool ground) {
+int light_channels(const Medium& medium, const Lighting& light, bool walls) {
+    const bool coloured = walls && light.solids != nullptr && light.solids->coloured();
+    return coloured ? 3 : medium.channels;
+}
+
+int ordinate_sets(const Medium& medium, const Lighting& light, bool ground, int channels) {
     const bool apart = ground_apart(light, ground);
-    if (light.map.columns > 0 || medium.channels > 1) return 3 + (apart ? 2 * medium.channels : 0);
+    if (light.map.columns > 0 || channels > 1) return 3 + (apart ? 2 * channels : 0);
     return int(light.sunlit) + int(any_light(light.sky)) +
            (apart ? 2 : int(light.ground.present && any_light(light.ground.radiance()))) +
            (!light.lamps.empty() || emits(medium) ? 3 : 0);
@@ -192,15 +198,16 @@ void add_own_lights(const OrdinateAsk& ask, std::vector<OrdinateSet>& out) {
 }  // namespace
 
 void set_ordinate_lights(const Medium& medium, const Lighting& light, const OrdinateAsk& ask,
-                         std::vector<OrdinateSet>& out) {
+                         bool walls, std::vector<OrdinateSet>& out) {
     out.clear();
     const Double3 ground = light.ground.radiance();
     const Double3 sun = light.sunlit ? light.sun_irradiance : Double3{};
+    const int channels = light_channels(medium, light, walls);
     const bool map = light.map.columns > 0, apart = ground_apart(light, ask.ground);
     const auto add_ground = [&](int channel, OrdinateFaces faces) {
         OrdinateSet set;
         for (std::size_t c = 0; c < 3; ++c)
-            if (medium.channels == 1 || int(c) == channel) set.colour[c] = float(ground[c]);
+            if (channels == 1 || int(c) == channel) set.colour[c] = float(ground[c]);
         for (int j = 0; j < kOrdinates; ++j) set.enters[std::size_t(j)] = goes_up(j) ? 1 : 0;
         set.channel = channel;
         set.faces = faces;
@@ -211,7 +218,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
         add_ground(channel, OrdinateFaces::kLower);
         add_ground(channel, OrdinateFaces::kSides);
     };
-    if (map || medium.channels > 1) {
+    if (map || channels > 1) {
         std::array<std::array<double, 3>, kOrdinates> enters{};
         for (int j = 0; j < kOrdinates; ++j) {
             const bool down = light.ground.present && goes_up(j);
@@ -228,7 +235,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
             for (std::size_t j = 0; j < kOrdinates; ++j) set.enters[j] = float(enters[j][c]);
             out.push_back(set);
         }
-        for (int c = 0; c < medium.channels && apart; ++c) add_grounds(c);
+        for (int c = 0; c < channels && apart; ++c) add_grounds(c);
         return;
     }
     const auto add = [&](const Double3& colour, float beam, float from_sky, float from_below) {

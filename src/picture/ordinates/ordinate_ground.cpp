@@ -7,14 +7,16 @@
 #include "kernels_cpu/core/lanes.h"
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
+#include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/ordinates/ordinate_medium.h"
 
 namespace pileus {
 namespace {
 
-constexpr int kCells = 64;    // along x and y
-constexpr double kReach = 2;  // heights of the medium's top over the ground
+constexpr int kCells = 64;                // along x and y
+constexpr double kReach = 2;              // heights of the medium's top over the ground
+constexpr float kAboveGround = 0x1p-10f;  // of the box's height: within what stands there
 constexpr int kRim = kCells / 8;
 constexpr int kParts = 2;  // of a direction's part of the sphere, along height and azimuth each
 
@@ -155,29 +157,17 @@ Status mean_sunlight(const Context& context, const Medium& medium, const Majoran
     PILEUS_TRY(allocate(arrays::ordinate_ground_sun(node_count(k.nodes)), depth));
     PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{depth.data()},
                         std::uint32_t(k.nodes.size[1])));
+    if (lighting.solids != nullptr) shade_cells(context, *lighting.solids, k, depth);
     for (int c = 0; c < 3; ++c)
         means_into_box(
             ground,
             [&](std::size_t i) {
                 const std::size_t wide = std::size_t(ground.map.size[0]);
                 const std::size_t at = i / wide / 2 * std::size_t(k.nodes.size[0]) + i % wide / 2;
-                return exp_(-(depth[at] * ground.sun_rest[c]));
+                return exp_(-(depth[at] * nodes.mean_rest[c]));
             },
             out[c]);
     return Status::ok();
-}
-
-/// Share of the sun's extinction that counts on the ground: of several media their mean.
-void set_sun_rest(OrdinateNodes& nodes) {
-    const std::size_t count = nodes.density.size();
-    for (int c = 0; c < 3; ++c) {
-        double rest = 0, mass = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            rest += double(nodes.density[i] * ordinate_rest(nodes, nodes.parts, c, i));
-            mass += double(nodes.density[i]);
-        }
-        nodes.ground.sun_rest[c] = mass > 0 ? float(rest / mass) : 1.0f;
-    }
 }
 
 }  // namespace
@@ -222,14 +212,18 @@ Status place_ground(const Context& context, const Medium& medium, const Lighting
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, sets), ground.light));
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, 3), ground.radiance));
     if (ground.known[0]) return Status::ok();
-    set_sun_rest(nodes);
     PILEUS_TRY(hold(arrays::ordinate_ground(cells, 2), ground.into));
     Look looks[kLooks];
     set_looks(looks);
     parallel_each(context.threads, std::size_t(cells), [&](std::size_t cell) {
         const GroundCell from = ground_cell(ground, cell);
+        const float above[3] = {from.at[0], from.at[1],
+                                from.at[2] + kAboveGround * float(medium.extent_m[2])};
         float sum[2] = {};
+        // What a closed solid stands on sends nothing into the box.
+        const bool covered = has_meshes(lighting) && is_within_solid(*lighting.solids, above);
         for (const Look& look : looks) {
+            if (covered) break;
             const Entry entry = entry_of(medium, from.at, look);
             if (!(entry.metres < 0)) sum[entry.beside ? 1 : 0] += look.weight;
         }
@@ -281,12 +275,13 @@ Status mix_ground(const Context& context, const Medium& medium, const Majorants&
                   const Lighting& lighting, OrdinateNodes& nodes) {
     OrdinateGround& ground = nodes.ground;
     const double albedo = lighting.ground.albedo;
+    const int channels = light_channels(medium, lighting, nodes.walls.any());
     const std::size_t cells = std::size_t(node_count(ground.map));
     double sunlight[3][2] = {};
     if (lighting.sunlit)
         PILEUS_TRY(mean_sunlight(context, medium, majorants, lighting, nodes, sunlight));
     const auto of_channel = [&](const OrdinateSet& set, std::size_t c) {
-        return medium.channels == 1 || set.channel == int(c);
+        return channels == 1 || set.channel == int(c);
     };
     for (std::size_t c = 0; c < 3; ++c) {
         // Radiances of the parts are what arrives there of other light, and of both.
@@ -329,13 +324,15 @@ Status mix_ground(const Context& context, const Medium& medium, const Majorants&
     return Status::ok();
 }
 
-void read_ground_light(const OrdinateNodes& nodes, const Lighting& light, BackgroundParams& k,
-                       BackgroundBuffers& b) {
+void read_ordinate_light(const OrdinateNodes& nodes, const Lighting& light, BackgroundParams& k,
+                         BackgroundBuffers& b) {
+    b.around = around_nodes(nodes);
+    // Light turned within the peak of the phase function is none of the nodes'.
+    for (int c = 0; c < 3; ++c) k.sun_rest[c] = nodes.mean_rest[c];
     const OrdinateGround& ground = nodes.ground;
     if (ground.map.size[0] == 0) return;
     k.map = ground.map;
     for (int a = 0; a < 2; ++a) k.map_origin[a] = ground.origin[a];
-    for (int c = 0; c < 3; ++c) k.sun_rest[c] = ground.sun_rest[c];
     k.map_per_albedo = light.has_bright_ground() ? float(1 / light.ground.albedo) : 0;
     b.map = ground.radiance.data();
 }

@@ -33,8 +33,9 @@ std::uint64_t max_ground_cells(const Medium& medium);
 /// Memory for any light. kLimit: out of memory.
 Status reserve_ground(OrdinateNodes& nodes);
 
-/// The background reads it, and solids below the media, which have what the ground has.
-void read_ground_light(const OrdinateNodes& nodes, const Lighting& light, BackgroundParams& k,
-                       BackgroundBuffers& b);
+/// The background reads it, and solids below the media, which have what the ground has; those among
+/// nodes have what comes through these.
+void read_ordinate_light(const OrdinateNodes& nodes, const Lighting& light, BackgroundParams& k,
+                         BackgroundBuffers& b);
 
 }  // namespace pileus

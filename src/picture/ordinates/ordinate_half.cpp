@@ -177,6 +177,8 @@ Status solve_half(const Context& context, const Medium& medium, OrdinateNodes& n
             coarser.first[a] = 0.5 * (ask.coarser.first[a] + 0.5 * ask.coarser.step[a] + 0.5) - 0.5;
         PILEUS_TRY(light_ring(context, coarser, s, true, larger, ring, own));
     }
+    PILEUS_TRY(hold_walls(1, false, larger.walls));
+    own.walls = larger.walls.any() ? &larger.walls : nullptr;
     OrdinateSet set = nodes.sets[s];
     set.solved = false;
     return solve_ordinates(context, medium, larger, lighting, own, 0, solver, set,

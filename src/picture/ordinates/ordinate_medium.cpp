@@ -84,6 +84,17 @@ Status part_sun(const Context& context, const ShadowParams& of_all, const Medium
 
 }  // namespace
 
+void set_mean_rest(const OrdinateNodes& nodes, float (&out)[3]) {
+    for (int c = 0; c < 3; ++c) {
+        double rest = 0, mass = 0;
+        for (std::size_t i = 0; i < nodes.density.size(); ++i) {
+            rest += double(nodes.density[i] * ordinate_rest(nodes, nodes.parts, c, i));
+            mass += double(nodes.density[i]);
+        }
+        out[c] = mass > 0 ? float(rest / mass) : 1.0f;
+    }
+}
+
 std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
     std::array<int, 3> out{};
     for (int a = 0; a < 3; ++a) {
@@ -164,8 +175,22 @@ std::uint64_t samples_held(const NodeSamples& samples, std::uint64_t filled) {
 
 }  // namespace
 
+namespace {
+
+/// Nodes within closed solids hold no medium.
+void empty_within(const Context& context, const Solids& solids, OrdinateNodes& nodes) {
+    parallel_each(context.threads, nodes.density.size(), [&](std::size_t i) {
+        const NodePlace p = node_place(nodes.grid, i);
+        float at[3];
+        for (std::size_t a = 0; a < 3; ++a) at[a] = (float(p[a]) + 0.5f) / nodes.grid.per_metre[a];
+        if (nodes.density[i] > 0 && is_within_solid(solids, at)) nodes.density[i] = 0;
+    });
+}
+
+}  // namespace
+
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                        OrdinateNodes& out) {
+                        const Solids* solids, OrdinateNodes& out) {
     out.within = samples_within(out.grid, medium);
     const NodeSamples samples = node_samples(out.grid, out.within);
     Buffer<float> all;
@@ -175,6 +200,7 @@ Status sample_ordinates(const Context& context, const Medium& medium, const Majo
     parallel_each(context.threads, all.size(),
                   [&](std::size_t i) { all[i] = density_at(view, sample_place(samples, i)); });
     average_samples(context, all, out);
+    if (solids != nullptr) empty_within(context, *solids, out);
     std::uint64_t filled = 0;
     for (const float density : out.density.span()) filled += density > 0 ? 1 : 0;
     PILEUS_TRY(allocate(arrays::ordinate_places(filled, Stage::kWrite), out.filled));

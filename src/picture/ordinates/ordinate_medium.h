@@ -19,6 +19,9 @@ inline float ordinate_rest(const OrdinateCells& nodes, const Buffer<float>& part
     return rest;
 }
 
+/// Share of the sun's extinction that counts on surfaces, by channel: of several media their mean.
+void set_mean_rest(const OrdinateNodes& nodes, float (&out)[3]);
+
 /// Samples of the density within nodes.
 struct NodeSamples {
     std::array<int, 3> within{};  ///< of a node, along each axis
@@ -77,9 +80,10 @@ float light_in_sample(const SampleWay& way, float per_metre, float depth);
 /// Densities of nodes, which are means of those of their samples, [sample of the whole grid].
 void average_samples(const Context& context, const Buffer<float>& from, OrdinateNodes& nodes);
 
-/// Densities of nodes and samples within them, and parts of media. kLimit: out of memory.
+/// Densities of nodes and samples within them, and parts of media; none within closed `solids`,
+/// null without. kLimit: out of memory.
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                        OrdinateNodes& out);
+                        const Solids* solids, OrdinateNodes& out);
 
 /// Optical depths towards the sun from samples that hold medium, held as their densities are; by
 /// rays, where `sun` is null, of the whole grid. Of nodes which media they are of. kLimit: out of

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "src/picture/ordinates/ordinate_ground.h"
+#include "src/world/solids/solids.h"
 
 namespace pileus {
 
@@ -18,15 +19,24 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
     out.all_samples = known ? node_count(ordinate_samples(made.grid, medium)) : out.samples;
     out.larger = known ? made.half.nodes.density.size() : out.nodes / 2 + 1;
     out.larger_filled = known ? made.half.nodes.filled.size() : out.larger;
+    out.beside = known ? made.walls.nodes.size() : out.nodes;
+    out.ways = known ? made.walls.ways.size() : bytes_of(kOrdinates, out.nodes);
+    out.larger_beside = known ? made.half.nodes.walls.nodes.size() : out.larger;
+    out.larger_ways = known ? made.half.nodes.walls.ways.size() : bytes_of(kOrdinates, out.larger);
     out.media = medium.count;
     out.channels = medium.channels;
     return out;
 }
 
 OrdinateSizes lit_ordinate_sizes(const Medium& medium, const Lighting& lighting,
-                                 const OrdinateNodes& made) {
+                                 const Solids& solids, const OrdinateNodes& made) {
     OrdinateSizes out = ordinate_sizes(medium, made);
-    out.sets = std::uint64_t(ordinate_sets(medium, lighting, true));
+    out.solids = solids.meshes;
+    const bool known = !made.density.empty();
+    const int channels = known           ? light_channels(medium, lighting, made.walls.any())
+                         : solids.meshes ? 3
+                                         : medium.channels;
+    out.sets = std::uint64_t(ordinate_sets(medium, lighting, true, channels));
     out.together = true;
     out.own = !lighting.lamps.empty() || emits(medium);
     if (lighting.ground.present) out.ground = max_ground_cells(medium);
@@ -68,6 +78,20 @@ void add_larger_rows(const OrdinateSizes& s, MemoryTable& t) {
                    Stage::kShadow, Stage::kShadow));
 }
 
+/// Ways that solids end, of nodes and of larger ones.
+void add_wall_rows(const OrdinateSizes& s, MemoryTable& t) {
+    const std::uint64_t ways = sum_of_bytes(s.ways, s.larger_ways);
+    const std::uint64_t beside = sum_of_bytes(s.beside, s.larger_beside);
+    add(t, arrays::ordinate_ways(ways));
+    add(t, arrays::ordinate_surfaces(ways));
+    add(t, arrays::ordinate_wall_numbers(
+               sum_of_bytes(sum_of_bytes(s.nodes, s.larger), sum_of_bytes(ways, 2 * beside + 2))));
+    add(t, arrays::ordinate_wall_light(
+               sum_of_bytes(sum_of_bytes(bytes_of(s.sets, s.ways), s.larger_ways),
+                            sum_of_bytes(bytes_of((s.sets + 3) * kAroundTerms, s.beside),
+                                         bytes_of(kOrdinates, beside)))));
+}
+
 }  // namespace
 
 void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
@@ -93,6 +117,7 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, renamed(arrays::ordinate_places(s.filled, Stage::kShadow), "ordinates: places at work",
                    Stage::kShadow, Stage::kShadow));
     add(t, arrays::ordinate_seen(s.solids ? s.nodes : 0));
+    if (s.solids) add_wall_rows(s, t);
     add(t, arrays::ordinate_own(s.filled, s.own));
     add(t, several(2, arrays::ordinate_ring(s.ring)));
     add(t, arrays::ordinate_ground(s.ground, s.ground > 0 ? s.sets + 5 : 0));

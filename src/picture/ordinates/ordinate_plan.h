@@ -24,6 +24,8 @@ struct OrdinateSizes {
     bool own = false;     ///< light of lamps and of media
     bool points = false;  ///< tables for lamps that have a place
     bool solids = false;
+    std::uint64_t ways = 0, beside = 0;  ///< that solids end, and nodes with such; of larger nodes
+    std::uint64_t larger_ways = 0, larger_beside = 0;
     bool together = false;     ///< sets are shown together
     std::uint64_t ground = 0;  ///< cells of the map of light on it
 };
@@ -33,7 +35,7 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made);
 
 /// The same with sets and the ground of a light; they are shown together.
 OrdinateSizes lit_ordinate_sizes(const Medium& medium, const Lighting& lighting,
-                                 const OrdinateNodes& made);
+                                 const Solids& solids, const OrdinateNodes& made);
 
 /// Those of a sky in place.
 OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky);

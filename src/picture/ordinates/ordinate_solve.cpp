@@ -77,6 +77,13 @@ void set_ways(const Context& context, const Medium& medium, const OrdinateCells&
             w.pass[at] = exp_(-t);
             w.mean[at] = t > 1e-6f ? one_minus_exp(t) / t : 1.0f;
         });
+        // Empty ones beside solids hold what comes through.
+        for (const std::int32_t i : nodes.walls.nodes.span()) {
+            const auto node = std::size_t(i);
+            const std::size_t at =
+                c * count + (way[c].along_x ? place_along_x(nodes.grid, node) : node);
+            if (!(nodes.density[node] > 0)) w.mean[at] = 1;
+        }
         if (nodes.ring)
             each_of_ring(nodes.grid, [&](std::size_t, std::size_t i) {
                 const std::size_t at =
@@ -140,6 +147,8 @@ struct AtWork {
     Work work;
     OrdinateWay way[kOrdinateClasses];
     std::int64_t slice_floats;
+    OrdinateWalls* walls;
+    WallLight on_walls;
 };
 
 constexpr std::int64_t kPiece = 512;
@@ -149,11 +158,12 @@ std::uint32_t end_of(const OrdinatesParams& k, std::int64_t piece) {
 }
 
 /// Sources from moments, and those of so many directions through all nodes.
-void sweep(const Context& context, const AtWork& a) {
+void sweep(const Context& context, const OrdinateCells& nodes, const AtWork& a) {
     parallel_for(context.threads, pieces_of(a.k), [&](std::int64_t p, int) {
         host_kernels(context.kernels)
             .ordinate_sources(a.k, a.b, std::uint32_t(p * kPiece), end_of(a.k, p));
     });
+    if (a.walls != nullptr) keep_sources(nodes, a.on_walls, *a.walls);
     parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int thread) {
         OrdinatesBuffers own = a.b;
         own.slices = a.b.slices + a.slice_floats * thread;
@@ -162,12 +172,16 @@ void sweep(const Context& context, const AtWork& a) {
     });
 }
 
-void iterate(const Context& context, const AtWork& a) {
-    sweep(context, a);
+/// Returns what light of solids changes by.
+double iterate(const Context& context, const OrdinateCells& nodes, const AtWork& a) {
+    sweep(context, nodes, a);
+    const double change =
+        a.walls != nullptr ? light_walls(context, nodes, a.on_walls, false, 0, *a.walls) : 0;
     parallel_for(context.threads, pieces_of(a.k), [&](std::int64_t p, int) {
         host_kernels(context.kernels)
             .ordinate_moments(a.k, a.b, std::uint32_t(p * kPiece), end_of(a.k, p));
     });
+    return change;
 }
 
 /// Solves the least squares of a few unknowns, by Cholesky's way; false: they are not independent.
@@ -228,6 +242,24 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
     }
 }
 
+/// Solids as the last solution of the set left them.
+void set_walls(const OrdinateSources& from, const OrdinateSet& set, AtWork& a) {
+    OrdinateWalls& walls = *(a.walls = from.walls);
+    const std::size_t count = walls.ways.size();
+    WallLight& light = a.on_walls;
+    light.radiance = a.b.radiance;
+    light.pass = a.work.pass, light.mean = a.work.mean, light.sweeps = a.k.sweep;
+    light.enters = set.enters.data();
+    light.set = &set;
+    light.sends = walls.sends.data() + from.set * count;
+    light.around = walls.around.empty()
+                       ? nullptr
+                       : walls.around.data() + from.set * kAroundTerms * walls.nodes.size();
+    for (std::size_t i = 0; i < count; ++i) walls.ways[i].sends = light.sends[i];
+    a.b.walls = walls.ways.data();
+    a.b.first_wall = walls.first.data();
+}
+
 Status set_work(const Context& context, const Medium& medium, const OrdinateCells& nodes,
                 const Lighting& lighting, const OrdinateSources& from, OrdinateSolver& solver,
                 const OrdinateSet& set, float* moments, AtWork& a) {
@@ -259,6 +291,7 @@ Status set_work(const Context& context, const Medium& medium, const OrdinateCell
     a.b.part = solver.parts.data();
     a.b.radiance = w.radiance, a.b.moments = moments, a.b.slices = solver.slices.data();
     if (from.ring != nullptr) set_ring(nodes, a.k, from.ring, w);
+    if (from.walls != nullptr) set_walls(from, set, a);
     return Status::ok();
 }
 
@@ -271,7 +304,7 @@ Status leave_nodes(const Context& context, const Medium& medium, const OrdinateC
     PILEUS_TRY(set_work(context, medium, nodes, lighting, from, solver, set, moments, a));
     // What leaves a node takes the place of the mean on the way through it.
     a.b.mean = a.b.pass;
-    sweep(context, a);
+    sweep(context, nodes, a);
     solver.left = true;
     out.radiance = a.b.radiance;
     for (std::size_t j = 0; j < kOrdinates; ++j) {
@@ -291,11 +324,13 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     const OrdinatesParams& k = a.k;
     const std::size_t count = nodes.filled.size();
     const bool begun = begins(iterations, set);
+    float mean = 0;
+    for (int j = 0; j < kOrdinates; ++j)
+        mean += k.weight[j] * k.harmonic[j][0] * 0.5f * (k.enters[j] + k.below[j]);
+    if (begun && a.walls != nullptr)
+        light_walls(context, nodes, a.on_walls, true, mean * k.harmonic[0][0], *a.walls);
     if (begun && !from.started) {
         // Where nothing is absorbed, much of what is within is as bright as what enters.
-        float mean = 0;
-        for (int j = 0; j < kOrdinates; ++j)
-            mean += k.weight[j] * k.harmonic[j][0] * 0.5f * (k.enters[j] + k.below[j]);
         std::fill_n(moments, count, mean);
         std::fill_n(moments + count, count * (kOrdinateMoments - 1), 0.0f);
     }
@@ -304,13 +339,13 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     int first = 0;  // of the iterations that are mixed
     for (set.iterations = 0; set.iterations < most;) {
         std::copy_n(moments, kSlowMoments * count, w.last);
-        iterate(context, a);
+        const double of_walls = iterate(context, nodes, a);
         double change = 0, norm = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const double now = double(moments[i]), off = now - double(w.last[i]);
             change += off * off, norm += now * now;
         }
-        set.residual = norm > 0 ? __builtin_sqrt(change / norm) : 0;
+        set.residual = std::max(norm > 0 ? __builtin_sqrt(change / norm) : 0, of_walls);
         if (++set.iterations == most || set.residual < kSolvedChange) break;
         // A mixed start may lead away: what came before counts no more then.
         if (set.iterations - 1 > first && set.residual > kFarther * least)

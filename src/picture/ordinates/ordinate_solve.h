@@ -19,10 +19,12 @@ struct OrdinateSolver {
 
 /// Light that begins in nodes; null: none.
 struct OrdinateSources {
-    const float* beam = nullptr;   ///< [filled]: of the sun, of an irradiance of 1
-    const float* fixed = nullptr;  ///< [direction][filled]
-    const float* ring = nullptr;   ///< [direction][node of the ring]: what enters there
-    bool started = false;          ///< the moments are a start
+    const float* beam = nullptr;     ///< [filled]: of the sun, of an irradiance of 1
+    const float* fixed = nullptr;    ///< [direction][filled]
+    const float* ring = nullptr;     ///< [direction][node of the ring]: what enters there
+    bool started = false;            ///< the moments are a start
+    OrdinateWalls* walls = nullptr;  ///< of the nodes; null: no solid ends a way
+    std::size_t set = 0;             ///< among OrdinateWalls::sends
 };
 
 /// Nodes of a ring: calls use(number in the ring, node).

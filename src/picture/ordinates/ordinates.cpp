@@ -89,8 +89,24 @@ std::uint64_t max_ordinate_samples(const Medium& medium) {
     return all > none ? all : none;
 }
 
+namespace {
+
+Status place_all_walls(const Context& context, const OrdinateSolids& solids, OrdinateNodes& nodes) {
+    PILEUS_TRY(place_walls(context, *solids.meshes, solids.ground_z, nodes));
+    return place_walls(context, *solids.meshes, solids.ground_z, nodes.half.nodes);
+}
+
+}  // namespace
+
+OrdinateSolids ordinate_solids(const Lighting& lighting) {
+    OrdinateSolids out;
+    out.meshes = lighting.solids;
+    if (lighting.ground.present) out.ground_z = lighting.ground.z;
+    return out;
+}
+
 Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                         bool points, OrdinateNodes& out) {
+                         const OrdinateSolids& solids, bool points, OrdinateNodes& out) {
     const StageClock clock(context, "ordinates");
     double rest = 0;
     PILEUS_TRY(prepare_optics(context, medium, points, out));
@@ -99,11 +115,15 @@ Status prepare_ordinates(const Context& context, const Medium& medium, const Maj
             rest = std::max(rest, double(optics.rest));
     out.grid = ordinate_grid(medium, rest);
     out.periodic = medium.grid.periodic;
-    PILEUS_TRY(sample_ordinates(context, medium, majorants, out));
+    const bool any = solids.meshes != nullptr && !solids.meshes->empty();
+    PILEUS_TRY(sample_ordinates(context, medium, majorants, any ? solids.meshes : nullptr, out));
     out.depth = node_depth(medium, out);
+    set_mean_rest(out, out.mean_rest);
     PILEUS_TRY(make_half(out));
     weigh_half(out);
-    return Status::ok();
+    out.walls = OrdinateWalls{};
+    out.half.nodes.walls = OrdinateWalls{};
+    return any ? place_all_walls(context, solids, out) : Status::ok();
 }
 
 double node_depth(const Medium& medium, const OrdinateNodes& out) {
@@ -122,6 +142,8 @@ Status reserve_ordinates(OrdinateNodes& out) {
     out.shown.reserve(kMaxOrdinateSets);
     PILEUS_TRY(hold(arrays::ordinate_light(node_count(out.grid), kMaxShown, out.media), out.light));
     PILEUS_TRY(reserve_ground(out));
+    PILEUS_TRY(hold_walls(kMaxOrdinateSets, true, out.walls));
+    PILEUS_TRY(hold_walls(1, false, out.half.nodes.walls));
     return hold(arrays::ordinate_near(node_count(out.grid), kMaxShown, true), out.near);
 }
 
@@ -153,6 +175,25 @@ Status solve_set(const Context& context, const Medium& medium, const Lighting& l
     return Status::ok();
 }
 
+/// Sunlight on what ends ways between nodes, and between larger ones.
+void light_all_surfaces(const Context& context, const Medium& medium, const Majorants& majorants,
+                        const Lighting& lighting, OrdinateNodes& nodes) {
+    for (OrdinateWalls* walls : {&nodes.walls, &nodes.half.nodes.walls})
+        if (walls->any())
+            light_surfaces(context, medium, majorants, lighting, nodes.mean_rest, *walls);
+}
+
+/// Ways end at the ground: where a host has moved it they are found again, and so is all light.
+Status follow_ground(const Context& context, const Lighting& lighting, OrdinateNodes& nodes) {
+    const OrdinateSolids solids = ordinate_solids(lighting);
+    const bool any = solids.meshes != nullptr && !solids.meshes->empty() && !nodes.ring;
+    if (!any || nodes.walls.ground_z == solids.ground_z) return Status::ok();
+    PILEUS_TRY(place_all_walls(context, solids, nodes));
+    nodes.ground.known.fill(false);
+    for (OrdinateSet& set : nodes.sets) set.solved = false;
+    return Status::ok();
+}
+
 }  // namespace
 
 Status make_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
@@ -161,7 +202,8 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     std::array<OrdinateSet, kMaxOrdinateSets> before;
     const std::size_t held = out.sets.size();
     std::copy(out.sets.begin(), out.sets.end(), before.begin());
-    set_ordinate_lights(medium, lighting, ask, out.sets);
+    PILEUS_TRY(follow_ground(context, lighting, out));
+    set_ordinate_lights(medium, lighting, ask, out.walls.any(), out.sets);
     out.near_made = false;
     const std::uint64_t nodes = out.filled.size();
     if (out.solution.size() < nodes * kOrdinateMoments * out.sets.size()) {
@@ -170,6 +212,7 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
         for (std::size_t s = 0; s < held; ++s) keep_solution(before[s], out.sets[s]);
     }
     PILEUS_TRY(reserve_half(out.sets.size(), out));
+    PILEUS_TRY(hold_walls(out.sets.size(), true, out.walls));
     const bool ground = lights_ground(medium, lighting, ask, out);
     out.ground.map.size[0] = ground ? out.ground.map.size[0] : 0;
     if (ground) PILEUS_TRY(place_ground(context, medium, lighting, out));
@@ -183,6 +226,7 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     if (shine > 0) {
         if (!ask.sampled && follow == nullptr)
             PILEUS_TRY(sample_sun(context, medium, majorants, lighting, ask.sun, out, depths));
+        if (follow == nullptr) light_all_surfaces(context, medium, majorants, lighting, out);
         PILEUS_TRY(hold(arrays::ordinate_beams(nodes, ask.keeps_beam ? shine : 1), beams));
     }
     if (follow != nullptr) keep_ground(before, out.sets);
@@ -196,6 +240,8 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
             (set.same && set.residual < kSolvedChange) || (follow != nullptr && !follow->solve);
         if (set.same && solved && (!ground || out.ground.known[s])) continue;
         OrdinateSources from;
+        from.walls = out.walls.any() ? &out.walls : nullptr;
+        from.set = s;
         if (set.beam > 0) {
             from.beam = beam;
             if (follow != nullptr)
@@ -213,7 +259,9 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
             PILEUS_TRY(solve_set(context, medium, lighting, ask, s, from, solver, larger, out));
         if (grounds) PILEUS_TRY(light_ground(context, medium, lighting, from, s, solver, out));
     }
-    return grounds ? mix_ground(context, medium, majorants, lighting, out) : Status::ok();
+    if (grounds) PILEUS_TRY(mix_ground(context, medium, majorants, lighting, out));
+    mix_walls(out.sets, out.walls);
+    return Status::ok();
 }
 
 }  // namespace pileus

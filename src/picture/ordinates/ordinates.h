@@ -9,6 +9,7 @@
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/picture/nodes/sun_depth.h"
+#include "src/picture/ordinates/ordinate_walls.h"
 #include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/light/beam.h"
@@ -77,6 +78,7 @@ struct OrdinateCells {
     Buffer<std::int32_t> filled;  ///< nodes that hold medium; others have no light of their own
     Buffer<float> parts;          ///< [medium][node]: of the density; of several media alone
     Buffer<float> solution;       ///< [set][moment][filled]
+    OrdinateWalls walls;
 };
 
 /// Nodes of twice the size, and which of them others lie in.
@@ -100,7 +102,6 @@ struct OrdinateGround {
     std::array<bool, kMaxOrdinateSets> known{};      ///< there is light of the set
     std::array<double, kMaxOrdinateSets> mean[2]{};  ///< of it, by what enters from each
     Double3 sends{};                                 ///< mean radiance
-    float sun_rest[3] = {1, 1, 1};                   ///< BackgroundParams::sun_rest
 };
 
 struct OrdinateNodes : OrdinateCells {
@@ -108,6 +109,7 @@ struct OrdinateNodes : OrdinateCells {
     Beam peak;                           ///< of the sun's light, turned within the peak
     BehindView behind{};                 ///< without lights
     double depth = 0;                    ///< node_depth()
+    float mean_rest[3] = {1, 1, 1};      ///< of the extinction, what keeps light from surfaces
     std::vector<OrdinateSet> sets;
     std::vector<OrdinateShown> shown;  ///< as `light` and `near` hold them
     bool has_moments = false;  ///< the camera is among the nodes, or copies of them are seen
@@ -289,11 +291,13 @@ void each_lamp(const OrdinateAsk& ask, const Use& use) {
     if (ask.beside >= 0) use(std::size_t(ask.beside));
 }
 
-/// Radiances that enter, by light or, where channels differ, by channel.
+/// Radiances that enter, by light or, where channels differ, by channel. `walls`: solids end ways.
 void set_ordinate_lights(const Medium& medium, const Lighting& lighting, const OrdinateAsk& ask,
-                         std::vector<OrdinateSet>& out);
-/// Their number, at most; `ground`: OrdinateAsk::ground.
-int ordinate_sets(const Medium& medium, const Lighting& lighting, bool ground);
+                         bool walls, std::vector<OrdinateSet>& out);
+/// 3: channels are solved for by themselves, for media or solids are coloured; else 1.
+int light_channels(const Medium& medium, const Lighting& lighting, bool walls);
+/// Number of sets, at most; `ground`: OrdinateAsk::ground.
+int ordinate_sets(const Medium& medium, const Lighting& lighting, bool ground, int channels);
 
 /// Unit vector of the way of light in a direction, and its solid angle.
 std::array<double, 3> ordinate_direction(int j);
@@ -320,10 +324,17 @@ struct OrdinateWay {
 void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)[kOrdinateClasses],
                          OrdinatesParams& k);
 
+/// Solids among nodes, and the ground that they stand on.
+struct OrdinateSolids {
+    const Solids* meshes = nullptr;      ///< null or empty: none
+    double ground_z = -__builtin_inf();  ///< m, box-local; -infinity: none
+};
+OrdinateSolids ordinate_solids(const Lighting& lighting);
+
 /// Nodes and what lies in them, which no light changes. `points`: the beam has tables for lamps
 /// that have a place, too. kLimit: out of memory.
 Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                         bool points, OrdinateNodes& out);
+                         const OrdinateSolids& solids, bool points, OrdinateNodes& out);
 /// Optics and tables of the beam alone.
 Status prepare_optics(const Context& context, const Medium& medium, bool points,
                       OrdinateNodes& out);

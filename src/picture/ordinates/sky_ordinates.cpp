@@ -261,7 +261,7 @@ private:
 Status follow_sky_ordinates(const Context& context, const Medium& medium,
                             const Majorants& majorants, const Lighting& lighting,
                             const SkyOrdinateAsk& ask, SkyOrdinates& out) {
-    set_ordinate_lights(medium, lighting, OrdinateAsk{}, out.lights);
+    set_ordinate_lights(medium, lighting, OrdinateAsk{}, false, out.lights);
     bool whole = ask.pictures <= 1;
     for (const SkyLevel& level : out.levels) whole |= !holds_kinds(level, out.lights);
     Following following(context, medium, majorants, lighting, ask, out);

@@ -152,13 +152,16 @@ void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan) {
     if (depth.present) plan.need("the camera's depth image");
 }
 
-void note_surface_light(const Solids& solids, bool mapped, Plan& plan) {
+void note_surface_light(const Solids& solids, bool nodes, bool mapped, Plan& plan) {
     if (!solids.meshes) return;
+    if (nodes) plan.need("light between media and solids within their box, by nodes");
     if (mapped)
-        plan.need("light of media on solids, as on the ground below them: approximation");
+        plan.need("light of media on other solids, as on the ground below them: approximation");
     else
-        plan.leave_out("the sky that media hide from solids, and light that they send there",
-                       "no discrete ordinates over a ground with an albedo");
+        plan.leave_out(nodes
+                           ? "the sky that media hide from solids outside of their box"
+                           : "the sky that media hide from solids, and light that they send there",
+                       nodes ? "no ground with an albedo" : "no discrete ordinates over a box");
 }
 
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,

@@ -64,9 +64,9 @@ Status repeat_solids(const Scene& scene, const double (&extent_m)[3], Solids& so
 
 /// What the plan says of them; their bytes, bounds where they are not there yet.
 void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan);
-/// What methods but `path` know of the media's light on meshes; `mapped`: what these send to the
-/// ground below.
-void note_surface_light(const Solids& solids, bool mapped, Plan& plan);
+/// What methods but `path` know of the media's light on meshes. `nodes`: what comes through nodes
+/// over the media's box; `mapped`: what they send to the ground below.
+void note_surface_light(const Solids& solids, bool nodes, bool mapped, Plan& plan);
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
                     const CameraDepth& depth, MemoryTable& table);
 void report_solids(const Solids& solids, const CameraDepth& depth, Report& report);
