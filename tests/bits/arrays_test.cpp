@@ -334,25 +334,6 @@ TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") 
     check_march(optical_depth_row(), {kSmallCumulus, "optical-depth", look});
 }
 
-TEST_CASE("arrays: what nodes beside solids hold is what the plan says") {
-    const test::TempFolder folder;
-    const std::string mesh = folder.put(
-        "plate.obj", "v -400 -400 0\nv 400 -400 0\nv 400 400 90\nv -400 400 0\nf 1 2 3 4\n");
-    const std::string text = std::string(kSmallCumulus) + "\n[[solid]]\nfile = \"" + mesh +
-                             "\"\nposition_m = [0, 0, 1000]\nalbedo = [0.2, 0.3, 0.4]\n";
-    const Fixture f(text.c_str(), "raymarch");
-    const MadeMethod made = raymarch_row().make({f.scene, {}});
-    const MarchState& state = static_cast<MarchMethod&>(*made.method).state();
-    Run run;
-    REQUIRE(run.open(raymarch_row(), made, f.scene, f.context));
-    Planes* planes = nullptr;
-    REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
-    Bytes held;
-    add_ordinates(state.light.ordinates.nodes, held);
-    CHECK(held["ordinates: ways that solids end"] > 0);
-    for (const auto& row : held) CHECK(row.second == planned(run.plan.memory, row.first.c_str()));
-}
-
 TEST_CASE("arrays: what particles hold while they are shown is what the plan says") {
     const std::string text = std::string(kSmallCumulus);
     const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");

@@ -9,7 +9,7 @@
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/picture/nodes/sun_depth.h"
-#include "src/picture/ordinates/ordinate_walls.h"
+#include "src/picture/ordinates/walls/ordinate_walls.h"
 #include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/light/beam.h"
