@@ -316,11 +316,13 @@ PILEUS_FN void fill_heap_part(const CloudParams& k, const CloudPart& part,
         AnvilShare<T> share{};
         if (iced) share = join_anvil(k, s.at, s, act);
         const T core = s.distance;
+        s.at.z = s.at.z - k.lift;
         add_octaves(s, k.lump, k.octaves, act, k.erosion, 0.16f * k.age, width, k.seed);
         if (!any(s.distance < width)) continue;
         T value = heap_density(k, level, core, s.distance, act, at_share(field[kNodeDry], x, y, z),
                                at_share(field[kNodeTaken], x, y, z));
         if (iced) value = value + share.ice * (anvil_density(k, s.distance, share.rim) - value);
+        value = value * k.water;
         for (int l = 0; l < W; ++l) {
             const int c = g + l;
             const std::int32_t at[3] = {part.begin[0] + (c & 3), part.begin[1] + (c >> 2 & 3),

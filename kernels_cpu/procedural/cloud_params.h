@@ -40,6 +40,8 @@ struct CloudParams {
     float erosion;        ///< share of a cell that each octave takes off
     float age, dilution;  ///< 0 to 1; 0 and more
     float entrainment;    ///< 1/m: share of outside air that a rising parcel takes in
+    float lift;           ///< metres that lumps have risen
+    float water;          ///< share that is left of a cloud that dies
     float soft, crisp;    ///< widths of a calm edge and of a fresh one
     float per_full;       ///< 1 over the height at which the density is 1
     float saturation;     ///< 1/m: height counts as z/(1 + z saturation), as water rains out

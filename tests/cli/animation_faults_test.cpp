@@ -42,7 +42,9 @@ TEST_CASE("animation: keys that are wrong, or move what is not there") {
          "s.toml:6:21: animation.keys.0.hours: conflicts with a scene without atmosphere.date, 3, "
          "allowed: left out"},
         {keys("{frame = 4, wind_s = 3}"),
-         "s.toml:6:21: animation.keys.0.wind_s: conflicts with a scene without a procedural sky, "
+         "s.toml:6:21: animation.keys.0.wind_s: conflicts with a scene without a procedural sky or "
+         "a cloud with "
+         "an age_s, "
          "3, "
          "allowed: left out"},
         {keys("{frame = 4, sun_elevation_deg = 3}") + "sun_elevation_deg = [3, 4]\n[sun]\n",

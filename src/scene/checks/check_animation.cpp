@@ -50,10 +50,10 @@ private:
     const Node* node_;
 };
 
-bool has_sky_medium(const Scene& scene) {
+bool has_medium_with_time(const Scene& scene) {
     for (const MediumSettings& medium : scene.media) {
         const DensityRow* row = density_row(medium.density);
-        if (row != nullptr && row->has_field) return true;
+        if (row != nullptr && (row->has_field || medium.cloud.lives())) return true;
     }
     return false;
 }
@@ -138,8 +138,9 @@ void check_animation(SceneCheck& check) {
         keys.refuse(Track::kHours, "conflicts with a scene without atmosphere.date");
     else if (scene.animation.moves_time)
         keys.refuse(Track::kHours, "conflicts with animation.hours");
-    if (!has_sky_medium(scene))
-        keys.refuse(Track::kWind, "conflicts with a scene without a procedural sky");
+    if (!has_medium_with_time(scene))
+        keys.refuse(Track::kWind,
+                    "conflicts with a scene without a procedural sky or a cloud with an age_s");
     if (scene.camera.orthographic) keys.refuse(Track::kFov, "conflicts with parallel rays");
     if (scene.view_files.position_by_place)
         keys.refuse(Track::kPosition, "conflicts with camera.position_deg");

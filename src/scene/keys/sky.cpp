@@ -122,6 +122,12 @@ constexpr KeyRow kCloudRows[] = {
      kNoNote},
     {"medium.N.cloud.age", cloud<&C::age>, from_to(0, 1), "lives",
      "0: growing and crisp, 1: soft, thin and falling apart", kNoNote},
+    {"medium.N.cloud.age_s", cloud<&C::age_s>, from_to(-1e9, 1e9), "s",
+     "seconds since the cloud's first turret rose: it grows, ages and is gone after `lifetime_s`; "
+     "clouds of a field live one after the other; films add `wind_s`; left out: full-grown",
+     kNoNote},
+    {"medium.N.cloud.lifetime_s", cloud<&C::lifetime_s>, from_to(1, 1e7), "s",
+     "life of a cloud with an `age_s`, in a field that of the largest", kNoNote},
     {"medium.N.cloud.outline", cloud<&C::outline>, from_to(0, 2), "",
      "bends of the outline seen from above, over `radius_m`", kNoNote},
     {"medium.N.cloud.shear", cloud<&C::shear>, from_to(0, 10), "",

@@ -26,6 +26,8 @@ struct CloudSettings {
     double dilution = kOfType;                           ///< dry air mixed in at the edge, share
     double entrainment_per_km = kOfType;  ///< air taken in on the way up, share per km
     double age = kOfType;                 ///< 0: growing, 1: fallen apart
+    double age_s = kOfType;               ///< since its first turret rose; left out: full-grown
+    double lifetime_s = kOfType;          ///< until it is gone
     double outline = kOfType;             ///< bends of the outline in plan over radius_m
     double shear = kOfType;               ///< drift of the top over its height
     double wind_deg = 0;                  ///< where the top drifts to, from east towards north
@@ -35,6 +37,7 @@ struct CloudSettings {
     double cover = kOfType;               ///< share of the ground under cloud, of fields and layers
     double erosion = 0.2;                 ///< share of its cell that an octave takes off
 
+    bool lives() const { return age_s != kOfType; }
     bool has_place() const { return position_m[0] != kOfType; }
 };
 

@@ -13,18 +13,19 @@ namespace {
 
 using F = CloudForm;
 // name, form, height, radius, base, turrets, tall, slimness, dilution, entrainment, age, outline,
-// shear, anvil, cell, cover, extinction, effective radius
+// shear, anvil, cell, cover, extinction, effective radius, lifetime (Cotton, Bryan, van den Heever
+// 2011, ch. 7, 8)
 constexpr CloudType kTypes[] = {
     {"cumulus-humilis", F::kHeap, 280, 330, 900, 12, 3, 0.26, 0.25, 1.2, 0.1, 0.5, 0.15, 0, 0, 0, 0,
-     0},
+     0, 900},
     {"cumulus-mediocris", F::kHeap, 650, 600, 900, 16, 5, 0.26, 0.25, 1.5, 0.1, 0.45, 0.18, 0, 0, 0,
-     0, 0},
+     0, 0, 1500},
     {"cumulus-congestus", F::kHeap, 1300, 700, 900, 12, 4, 0.24, 0.25, 1.2, 0, 0.35, 0.12, 0, 0, 0,
-     0, 0},
+     0, 0, 2700},
     {"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.3, 0.15, 0, 0.4, 0.3, 0.9, 0, 0,
-     0.1, 12},
+     0.1, 12, 5400},
     {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15, 0, 0, 0.25,
-     0, 0},
+     0, 0, 1500},
     {"stratocumulus", F::kClosed, 330, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1100, 0.85, 0, 0},
     {"stratocumulus-open", F::kOpen, 450, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 4500, 0.45, 0, 0},
     {"altocumulus", F::kClosed, 170, 0, 3500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 420, 0.6, 0.03, 8},
@@ -65,6 +66,7 @@ CloudSettings resolved_cloud(const CloudSettings& settings) {
     out.dilution = or_else(settings.dilution, type.dilution);
     out.entrainment_per_km = cloud_entrainment_per_km(settings, out.height_m);
     out.age = or_else(settings.age, type.age);
+    out.lifetime_s = or_else(settings.lifetime_s, type.lifetime_s);
     out.outline = or_else(settings.outline, type.outline);
     out.shear = or_else(settings.shear, type.shear);
     out.anvil = or_else(settings.anvil, type.anvil);

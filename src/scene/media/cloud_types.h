@@ -34,6 +34,7 @@ struct CloudType {
     double anvil, cell_m, cover;
     double extinction_per_m;     ///< 0: that of adiabatic water
     double effective_radius_um;  ///< 0: that of adiabatic water; below: ice
+    double lifetime_s = 0;       ///< of heaps, and of a field's largest
 };
 
 /// The type of this name, which must be one of kCloudTypes.

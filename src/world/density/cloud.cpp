@@ -47,7 +47,11 @@ DensityOutline outline_row(const MediumSettings& medium) {
 }
 
 Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    return make_cloud(medium, {with.size, host_kernels(with.kernels), with.threads}, volume);
+    const CloudMaking making{with.size, host_kernels(with.kernels), with.threads};
+    if (!medium.cloud.lives()) return make_cloud(medium, making, volume);
+    MediumSettings later = medium;
+    later.cloud.age_s += with.wind_s;
+    return make_cloud(later, making, volume);
 }
 
 constexpr DensityRow cloud_row() {

@@ -15,6 +15,8 @@ namespace pileus {
 
 struct SceneCheck;
 
+constexpr std::size_t kMaxTurrets = 40;
+
 /// The balls of a cloud, in units of its height from the middle of its foot, and what it takes up
 /// with bends and lumps: lowest and highest corner.
 struct CloudHeap {
@@ -25,6 +27,23 @@ struct CloudHeap {
 
 /// Grows the balls of resolved settings. kLimit: out of memory.
 Status grow_cloud(const CloudSettings& settings, CloudHeap& heap);
+
+/// What a cloud with an age in seconds is by then; `share`: of its life.
+struct CloudLife {
+    double share = 0;
+    float lift = 0;   ///< that lumps have risen, over the height
+    float water = 1;  ///< what is left
+};
+CloudLife cloud_life(const CloudSettings& settings);
+/// Resolved settings with the age, dilution and anvil of that time.
+CloudSettings cloud_at_age(const CloudSettings& settings);
+/// Lets balls be where they are by then: each turret rises at a time of its own. `turret`: of each
+/// ball; `towers`: their feet.
+struct CloudFoot {
+    float x, y;
+};
+void rise_turrets(const CloudSettings& settings, const std::uint8_t* turret, const CloudFoot* feet,
+                  std::size_t turrets, CloudHeap& heap);
 
 /// The anvil of resolved settings, in units of the cloud's height; the unit vector of the wind.
 struct AnvilPlace {

@@ -11,8 +11,6 @@
 namespace pileus {
 namespace {
 
-constexpr std::size_t kMaxTurrets = 40;
-
 struct Tower {
     float x, y, height, radius, vigour;
 };
@@ -39,16 +37,27 @@ public:
 
     void run() {
         place_towers();
-        for (std::size_t i = 0; i < turrets_; ++i) stack(towers_[i]);
+        for (std::size_t i = 0; i < turrets_; ++i) {
+            turret_ = std::uint8_t(i);
+            stack(towers_[i]);
+        }
         const std::size_t large = heap_.count;
         brood(0, large, {5, 8, 0.38f, 0.62f, 0.55f});
         brood(large, heap_.count, {4, 8, 0.34f, 0.60f, 0.50f});
+    }
+
+    /// After run(): where the balls are at the settings' age.
+    void rise(const CloudSettings& s) {
+        CloudFoot feet[kMaxTurrets];
+        for (std::size_t i = 0; i < turrets_; ++i) feet[i] = {towers_[i].x, towers_[i].y};
+        rise_turrets(s, of_ball_, feet, turrets_, heap_);
     }
 
 private:
     void add(float x, float y, float z, float r, float vigour) {
         if (heap_.count == heap_.balls.size()) return;
         const float join = 0.05f * r;
+        of_ball_[heap_.count] = turret_;
         heap_.balls[heap_.count++] = {
             x, y, z, r, std::min(std::max(vigour, 0.0f), 1.0f), join, 0.25f / join, 0};
     }
@@ -126,6 +135,7 @@ private:
     void brood(std::size_t begin, std::size_t end, const Brood& b) {
         for (std::size_t i = begin; i < end; ++i) {
             const CloudBall parent = heap_.balls[i];
+            turret_ = of_ball_[i];
             const int children =
                 b.least + int(draws_.between(0.0f, float(b.most - b.least) + 1.0f));
             const std::size_t first = heap_.count;
@@ -168,6 +178,7 @@ private:
     std::size_t turrets_, tall_;
     float lean_x_ = 0, lean_y_ = 0;
     Tower towers_[kMaxTurrets]{};
+    std::uint8_t turret_ = 0, of_ball_[kMaxCloudBalls]{};
 };
 
 /// What the balls take up, with what bends, the outline in plan and lumps add.
@@ -209,8 +220,11 @@ AnvilPlace anvil_place(const CloudSettings& s) {
 Status grow_cloud(const CloudSettings& settings, CloudHeap& heap) {
     PILEUS_TRY(heap.balls.resize(kMaxCloudBalls, "balls of a cloud"));
     heap.count = 0;
-    Growth(settings, heap).run();
+    Growth growth(settings, heap);
+    growth.run();
+    // The box holds it at any age.
     measure(settings, heap);
+    if (settings.lives()) growth.rise(settings);
     return Status::ok();
 }
 

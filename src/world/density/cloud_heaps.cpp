@@ -20,7 +20,7 @@ constexpr int kFieldTries = 40;
 
 CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
                       const std::array<int, 3>& size, Buffer<CloudBall>& balls) {
-    const CloudSettings& cloud = place.cloud;
+    const CloudSettings cloud = cloud_at_age(place.cloud);
     const float h = float(cloud.height_m);
     for (std::size_t i = 0; i < heap.count; ++i) {
         CloudBall b = heap.balls[i];
@@ -54,16 +54,18 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     k.plan_per_m = float(1 / (0.7 * cloud.radius_m));
     for (std::size_t i = 0; i < heap.count; ++i) k.join = std::max(k.join, balls[i].join);
     k.vigour_reach = 0.03f * h;
-    k.lump = (cloud.anvil > 0 ? 0.11f : 0.16f) * h;
+    k.lump = (place.cloud.anvil > 0 ? 0.11f : 0.16f) * h;
     for (float s = k.lump; s > 1.8f * k.voxel && k.octaves < 16; s *= 0.5f) ++k.octaves;
     k.erosion = float(cloud.erosion);
+    const CloudLife life = cloud_life(place.cloud);
+    k.lift = life.lift * h, k.water = life.water;
     k.age = float(cloud.age), k.dilution = float(cloud.dilution);
     k.entrainment = float(0.001 * cloud.entrainment_per_km);
     // Of a cloud of usual size 30 and 6 m, but not finer than the grid.
     k.soft = std::max(std::min(30.0f, 0.05f * h), 1.4f * k.voxel);
     k.crisp = std::max(std::min(6.0f, 0.01f * h), 1.4f * k.voxel);
     double full = full_height_m(place.full_m);
-    if (cloud.anvil > 0) {
+    if (place.cloud.anvil > 0) {
         // Of a cloud of 10 km: water rains out above 2.5 km.
         k.saturation = 4 / h;
         full /= 1 + full * double(k.saturation);
@@ -75,6 +77,17 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     }
     k.per_full = float(1 / full);
     return k;
+}
+
+/// A cloud of a field that lives: one after the other stands at its place, large ones longer, each
+/// with a time of its own.
+void live_in_turn(const CloudSettings& field, std::size_t number, double radius, CloudSettings& c) {
+    const std::uint32_t key = make_key(std::uint64_t(field.seed), kCloudLifeStream, 1 + number).k0;
+    const double first = double(key >> 8) * 0x1p-24;
+    c.lifetime_s = field.lifetime_s * std::max(0.35, std::sqrt(radius / field.radius_m));
+    const double lives = field.age_s / c.lifetime_s + first, whole = std::floor(lives);
+    c.age_s = (lives - whole) * c.lifetime_s;
+    c.seed += std::int64_t(whole) * 97;
 }
 
 /// A cloud of a field.
@@ -123,6 +136,7 @@ std::vector<FieldCloud> strew(const CloudPlace& place, Draws& draws, std::uint32
 
 Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume) {
+    if (heap.count == 0) return Status::ok();  // not yet there, or gone
     Buffer<CloudBall> balls;
     PILEUS_TRY(balls.resize(std::max(heap.count, std::size_t(1)), "balls of a cloud"));
     CloudParams k = params_of(place, heap, with.size, balls);
@@ -159,6 +173,7 @@ Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volu
         c.age = std::min(1.0, c.age * u * u * (3.6 - 2.0 * big));
         one.foot_m = {place.bounds_m[0].x + clouds[i].x, place.bounds_m[0].y + clouds[i].y,
                       place.foot_m.z};
+        if (c.lives()) live_in_turn(place.cloud, i, clouds[i].radius, c);
         CloudHeap heap;
         PILEUS_TRY(grow_cloud(c, heap));
         PILEUS_TRY(make_heap(one, heap, with, volume));

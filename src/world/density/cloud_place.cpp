@@ -18,7 +18,8 @@ namespace {
 constexpr const char* kHeapKeys[] = {"radius_m", "outline", "wind_deg"};
 /// What lenses do not have either.
 constexpr const char* kTurretKeys[] = {
-    "turrets", "tall", "slimness", "dilution", "entrainment_per_km", "age", "anvil"};
+    "turrets", "tall",  "slimness",   "dilution", "entrainment_per_km",
+    "age",     "age_s", "lifetime_s", "anvil"};
 
 // Of layers and fields: how far the box reaches over the base and under it, in heights.
 constexpr double kLayerOver = 1.2, kLayerUnder = 0.08;
@@ -146,6 +147,11 @@ void check_cloud(SceneCheck& check, std::size_t index) {
     for (const char* key : kTurretKeys)
         if ((type.cell_m > 0 || lens) && check.valid_key(path + "cloud." + key) != nullptr)
             fault(key, "for heaps and fields only, allowed: left out");
+    if (check.valid_key(path + "cloud.age_s") != nullptr &&
+        check.valid_key(path + "cloud.age") != nullptr)
+        fault("age", "conflicts with age_s, which tells it, allowed: one of them");
+    if (check.valid_key(path + "cloud.lifetime_s") != nullptr && check.lacks(path + "cloud.age_s"))
+        fault("lifetime_s", "nothing lives without age_s, allowed: with age_s, or left out");
     if (!lens && check.valid_key(path + "cloud.plates") != nullptr)
         fault("plates", "for lenticularis only, allowed: left out");
     if ((lens || streaks) && check.valid_key(path + "cloud.erosion") != nullptr)
