@@ -51,7 +51,7 @@ PILEUS_FN AnvilShare<T> join_anvil(const CloudParams& k, const Vec<T>& p, CloudS
     const T depth = k.anvil_depth * sqrt_(inside) * (1.0f - 0.45f * min_(rim, one));
     const T over = p.z - k.anvil_top, under = (k.anvil_top - depth) - p.z;
     const T beside = (rim - 1.0f) * (0.4f * k.anvil_radius);
-    const T d = max_(max_(over, under), beside);
+    const T d = max_(max_(over, under), beside) + k.anvil_sunk;
     const float join = kAnvilJoin * k.height;
     const T ice = smooth_ramp<T>(0.5f + (s.distance - d) * (1.0f / join));
     const auto nearer = d < s.distance;

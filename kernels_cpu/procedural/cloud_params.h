@@ -47,6 +47,7 @@ struct CloudParams {
     float saturation;     ///< 1/m: height counts as z/(1 + z saturation), as water rains out
     // A spreading top of ice: flat above, thinning to a rim, drawn out downwind; radius 0: none.
     float anvil_radius, anvil_top, anvil_depth;
+    float anvil_sunk;        ///< how far its surface lies within, while it comes
     float anvil_x, anvil_y;  ///< its middle
     float wind_x, wind_y;    ///< unit vector
 };

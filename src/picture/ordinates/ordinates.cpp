@@ -199,10 +199,10 @@ Status follow_ground(const Context& context, const Lighting& lighting, OrdinateN
 Status make_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                       const Lighting& lighting, const OrdinateAsk& ask, OrdinateNodes& out) {
     const StageClock clock(context, "ordinates");
+    PILEUS_TRY(follow_ground(context, lighting, out));
     std::array<OrdinateSet, kMaxOrdinateSets> before;
     const std::size_t held = out.sets.size();
     std::copy(out.sets.begin(), out.sets.end(), before.begin());
-    PILEUS_TRY(follow_ground(context, lighting, out));
     set_ordinate_lights(medium, lighting, ask, out.walls.any(), out.sets);
     out.near_made = false;
     const std::uint64_t nodes = out.filled.size();

@@ -28,20 +28,24 @@ struct CloudHeap {
 /// Grows the balls of resolved settings. kLimit: out of memory.
 Status grow_cloud(const CloudSettings& settings, CloudHeap& heap);
 
-/// What a cloud with an age in seconds is by then; `share`: of its life.
+/// What a cloud with an age in seconds is by then.
 struct CloudLife {
-    double share = 0;
-    float lift = 0;   ///< that lumps have risen, over the height
-    float water = 1;  ///< what is left
+    double share = 0;      ///< of its life
+    float lift = 0;        ///< that lumps have risen, over the height
+    float water = 1;       ///< what is left
+    double anvil = 1;      ///< 0: the anvil has not begun to come
+    float anvil_sunk = 0;  ///< how far its surface lies within, over the height
 };
 CloudLife cloud_life(const CloudSettings& settings);
 /// Resolved settings with the age, dilution and anvil of that time.
 CloudSettings cloud_at_age(const CloudSettings& settings);
-/// Lets balls be where they are by then: each turret rises at a time of its own. `turret`: of each
-/// ball; `towers`: their feet.
+
+/// Where a turret stands.
 struct CloudFoot {
     float x, y;
 };
+/// Lets balls be where they are at the age of the settings: each turret rises at a time of its own.
+/// `turret`: of each ball; `feet`: of each turret.
 void rise_turrets(const CloudSettings& settings, const std::uint8_t* turret, const CloudFoot* feet,
                   std::size_t turrets, CloudHeap& heap);
 

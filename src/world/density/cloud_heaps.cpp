@@ -25,7 +25,8 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     for (std::size_t i = 0; i < heap.count; ++i) {
         CloudBall b = heap.balls[i];
         b.x *= h, b.y *= h, b.z *= h, b.r *= h;
-        b.join = 0.05f * b.r, b.unjoin = 0.25f / b.join;
+        // A ball that has not come out of the others yet has a radius below 0.
+        b.join = 0.05f * (b.spare > 0 ? b.spare * h : b.r), b.unjoin = 0.25f / b.join;
         balls[i] = b;
     }
     CloudParams k{};
@@ -71,6 +72,7 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
         full /= 1 + full * double(k.saturation);
         const AnvilPlace anvil = anvil_place(cloud);
         k.anvil_radius = float(cloud.anvil) * h;
+        k.anvil_sunk = life.anvil_sunk * h;
         k.anvil_top = anvil.top * h, k.anvil_depth = anvil.depth * h;
         k.anvil_x = anvil.x * h, k.anvil_y = anvil.y * h;
         k.wind_x = anvil.wind_x, k.wind_y = anvil.wind_y;

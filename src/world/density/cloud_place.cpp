@@ -149,8 +149,9 @@ void check_cloud(SceneCheck& check, std::size_t index) {
             fault(key, "for heaps and fields only, allowed: left out");
     if (check.valid_key(path + "cloud.age_s") != nullptr &&
         check.valid_key(path + "cloud.age") != nullptr)
-        fault("age", "conflicts with age_s, which tells it, allowed: one of them");
-    if (check.valid_key(path + "cloud.lifetime_s") != nullptr && check.lacks(path + "cloud.age_s"))
+        fault("age", "conflicts with age_s, by which a cloud ages, allowed: one of them");
+    if (type.cell_m == 0 && !lens && check.valid_key(path + "cloud.lifetime_s") != nullptr &&
+        check.lacks(path + "cloud.age_s"))
         fault("lifetime_s", "nothing lives without age_s, allowed: with age_s, or left out");
     if (!lens && check.valid_key(path + "cloud.plates") != nullptr)
         fault("plates", "for lenticularis only, allowed: left out");

@@ -48,7 +48,9 @@ void set_taps(const NodeGrid& grid, int j, WayThrough& way) {
     int low[2];
     for (int i = 0; i < 2; ++i) {
         const int a = i == 0 ? s.along : s.across;
-        const double periods = (-step(a) / through - s.base[i]) / grid.size[a];
+        const float share =
+            s.weight[1][1] + (i == 0 ? s.weight[0][1] : s.weight[1][0]);  // of the farther node
+        const double periods = (-step(a) / through - s.base[i] - double(share)) / grid.size[a];
         low[i] =
             s.base[i] + (way.nodes.periodic ? floor_int(float(periods) + 0.5f) : 0) * grid.size[a];
     }
