@@ -61,7 +61,7 @@ PILEUS_FN void sun_through(const BackgroundParams& k, T tau, T (&out)[3]) {
 }
 
 /// Whether the sun lights the ground, and the optical depth towards it, of the lanes of `wanted`.
-inline bool sun_on_ground(const BackgroundParams& k) {
+PILEUS_FN bool sun_on_ground(const BackgroundParams& k) {
     return k.ground_sun[0] > 0.0f || k.ground_sun[1] > 0.0f || k.ground_sun[2] > 0.0f;
 }
 template <class T>
