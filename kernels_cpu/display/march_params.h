@@ -170,6 +170,7 @@ struct BackgroundParams {
     NodeGrid shadow;         ///< of optical depths on the ground; size 0: rays look for themselves
     float shadow_origin[2];  ///< m, box-local
 };
+
 /// Light that falls on a surface from all around but the sun, over pi: harmonics of its normal.
 constexpr int kAroundTerms = 9;
 

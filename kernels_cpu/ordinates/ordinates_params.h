@@ -54,11 +54,10 @@ struct OrdinatesBuffers {
     const std::int32_t* place;    ///< [filled]: of nodes, x fastest, then y
     const std::int32_t* place_x;  ///< [filled]: where slices are along x: y fastest, then z
     const float* pass;            ///< [class][place]: e^-t of the way through a node
-    const float*
-        mean;  ///< [class][place]: (1 - e^-t) / t; 0: the node is empty and beside no solid
-    const float* beam;    ///< [filled]: irradiance of the beam; null: none
-    const float* fixed;   ///< [direction][filled]: source of lamps and media; null: none
-    const float* part;    ///< [medium][filled]: of extinction that counts; null: one medium
+    const float* mean;            ///< [class][place]: (1 - e^-t) / t; 0: empty and beside no solid
+    const float* beam;            ///< [filled]: irradiance of the beam; null: none
+    const float* fixed;           ///< [direction][filled]: source of lamps and media; null: none
+    const float* part;            ///< [medium][filled]: of extinction that counts; null: one medium
     float* radiance;      ///< [direction][place]: source, then mean radiance; 0 in empty nodes
     float* moments;       ///< [moment][filled]
     float* slices;        ///< of one thread: ordinate_slice_floats

@@ -2,13 +2,9 @@
 // Light of media on solids: below a deck they have what the ground below has, above it all of the
 // sky. in: a plate and a wall under and over a deck -> out: radiances against paths.
 // docs/solids.md, "How they are lit"
-#include <cmath>
+#include "tests/law/solid_pictures.h"
 
-#include "tests/io/temp_folder.h"
-#include "tests/support/render_harness.h"
-
-using namespace pileus;
-using namespace render_test;
+using namespace solid_test;
 
 namespace {
 
@@ -42,32 +38,11 @@ extinction_per_m = 0.02
 phase = { type = "henyey-greenstein", g = 0.85 }
 )";
 
-/// Means of three channels where the solid is seen.
-std::array<double, 3> light_on(const std::string& solid, const char* method,
-                               const std::vector<std::string>& more) {
-    const test::TempFolder folder;
-    folder.put("plate.obj", kPlate);
-    folder.put("wall.obj", kWall);
-    std::vector<std::string> set = {std::string("method.name=") + method};
-    set.insert(set.end(), more.begin(), more.end());
-    Scene scene = scene_from(kDeck + solid, set);
-    scene.directory = folder.path("");
-    const Picture p = render_one(scene);
-    std::array<double, 3> out{};
-    for (int y = 2; y < 6; ++y)
-        for (int x = 3; x < 9; ++x)
-            for (std::size_t c = 0; c < 3; ++c)
-                out[c] += double(p.at(c == 0 ? "R" : c == 1 ? "G" : "B", x, y)) / 24;
-    return out;
-}
+const Meshes kMeshes = {{"plate.obj", kPlate}, {"wall.obj", kWall}};
+constexpr Pixels kSolid{3, 2, 9, 6};
 
 void compare(const std::string& solid, double tolerance, const std::vector<std::string>& more) {
-    const std::array<double, 3> truth = light_on(solid, "path", more);
-    const std::array<double, 3> found = light_on(solid, "raymarch", more);
-    for (std::size_t c = 0; c < 3; ++c) {
-        CAPTURE(c);
-        CHECK(std::fabs(found[c] / truth[c] - 1) < tolerance);
-    }
+    compare_with_path(kDeck + solid, kMeshes, kSolid, tolerance, more);
 }
 
 std::string placed(const char* file, double height) {
@@ -93,7 +68,7 @@ TEST_CASE("solids at the foot of fog have the light of the ground beside them") 
 TEST_CASE("solids below a deck over a black ground, or without one, are as they were") {
     const std::string plate = placed("plate.obj", 200);
     for (const char* ground : {"ground.albedo=0", "sun.irradiance=0"}) {
-        const auto found = light_on(plate, "raymarch", {ground});
+        const auto found = means_of(kDeck + plate, kMeshes, "raymarch", kSolid, {ground});
         for (const double light : found) CHECK(std::isfinite(light));
     }
 }

@@ -2,13 +2,11 @@
 // Solids within media, by discrete ordinates: light ends at them, is sent back, and falls on them
 // as the media let it. in: boxes and plates in fog -> out: radiances against paths, a white
 // furnace. docs/ordinates.md, "Solids"
-#include <cmath>
-
-#include "tests/io/temp_folder.h"
-#include "tests/support/render_harness.h"
+#include "tests/law/solid_pictures.h"
 
 using namespace pileus;
 using namespace render_test;
+using namespace solid_test;
 
 namespace {
 
@@ -44,36 +42,11 @@ extinction_per_m = 0.005
 phase = { type = "henyey-greenstein", g = 0.85 }
 )";
 
-struct Means {
-    std::array<double, 3> rgb{};
-    Report report;
-};
-
-Means seen(const std::string& more, const char* method, const std::vector<std::string>& sets) {
-    const test::TempFolder folder;
-    folder.put("plate.obj", kPlate);
-    folder.put("box.obj", kBox);
-    std::vector<std::string> all = {std::string("method.name=") + method};
-    all.insert(all.end(), sets.begin(), sets.end());
-    Scene scene = scene_from(kFog + more, all);
-    scene.directory = folder.path("");
-    const Picture p = render_one(scene);
-    Means out;
-    out.report = p.report;
-    const double pixels = double(p.image.width) * double(p.image.height);
-    for (int y = 0; y < p.image.height; ++y)
-        for (int x = 0; x < p.image.width; ++x)
-            for (std::size_t c = 0; c < 3; ++c)
-                out.rgb[c] += double(p.at(c == 0 ? "R" : c == 1 ? "G" : "B", x, y)) / pixels;
-    return out;
-}
+const Meshes kMeshes = {{"plate.obj", kPlate}, {"box.obj", kBox}};
+constexpr Pixels kAll{0, 0, 12, 8};
 
 void compare(const std::string& solid, double tolerance, const std::vector<std::string>& sets) {
-    const Means truth = seen(solid, "path", sets), found = seen(solid, "raymarch", sets);
-    for (std::size_t c = 0; c < 3; ++c) {
-        CAPTURE(c);
-        CHECK(std::fabs(found.rgb[c] / truth.rgb[c] - 1) < tolerance);
-    }
+    compare_with_path(kFog + solid, kMeshes, kAll, tolerance, sets);
 }
 
 std::string placed(const char* file, const char* place, const char* albedo) {
@@ -137,8 +110,9 @@ TEST_CASE("a white furnace stays white with white solids") {
     const std::vector<std::string> even = {"sun.irradiance=0", "sky.radiance=[1,1,1]",
                                            "ground.albedo=1"};
     for (const char* file : {"box.obj", "plate.obj"}) {
-        const Means p = seen(placed(file, "[0, 0, 200]", "1"), "raymarch", even);
+        const auto means =
+            means_of(kFog + placed(file, "[0, 0, 200]", "1"), kMeshes, "raymarch", kAll, even);
         CAPTURE(file);
-        for (const double light : p.rgb) CHECK(std::fabs(light - 1) < 0.005);
+        for (const double light : means) CHECK(std::fabs(light - 1) < 0.005);
     }
 }

@@ -223,9 +223,8 @@ Status place_ground(const Context& context, const Medium& medium, const Lighting
         // What a closed solid stands on sends nothing into the box.
         const bool covered = has_meshes(lighting) && is_within_solid(*lighting.solids, above);
         for (const Look& look : looks) {
-            if (covered) break;
             const Entry entry = entry_of(medium, from.at, look);
-            if (!(entry.metres < 0)) sum[entry.beside ? 1 : 0] += look.weight;
+            if (!covered && !(entry.metres < 0)) sum[entry.beside ? 1 : 0] += look.weight;
         }
         for (std::size_t f = 0; f < 2; ++f) ground.into[f * cells + cell] = sum[f];
     });

@@ -163,7 +163,7 @@ void sweep(const Context& context, const OrdinateCells& nodes, const AtWork& a) 
         host_kernels(context.kernels)
             .ordinate_sources(a.k, a.b, std::uint32_t(p * kPiece), end_of(a.k, p));
     });
-    if (a.walls != nullptr) keep_sources(nodes, a.on_walls, *a.walls);
+    if (a.walls != nullptr) keep_sources(context, nodes, a.on_walls, *a.walls);
     parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int thread) {
         OrdinatesBuffers own = a.b;
         own.slices = a.b.slices + a.slice_floats * thread;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "src/picture/background.h"
 #include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/ordinates/ordinate_half.h"
 #include "src/picture/ordinates/ordinate_medium.h"
@@ -100,7 +101,7 @@ Status place_all_walls(const Context& context, const OrdinateSolids& solids, Ord
 
 OrdinateSolids ordinate_solids(const Lighting& lighting) {
     OrdinateSolids out;
-    out.meshes = lighting.solids;
+    if (has_meshes(lighting)) out.meshes = lighting.solids;
     if (lighting.ground.present) out.ground_z = lighting.ground.z;
     return out;
 }
@@ -115,15 +116,14 @@ Status prepare_ordinates(const Context& context, const Medium& medium, const Maj
             rest = std::max(rest, double(optics.rest));
     out.grid = ordinate_grid(medium, rest);
     out.periodic = medium.grid.periodic;
-    const bool any = solids.meshes != nullptr && !solids.meshes->empty();
-    PILEUS_TRY(sample_ordinates(context, medium, majorants, any ? solids.meshes : nullptr, out));
+    PILEUS_TRY(sample_ordinates(context, medium, majorants, solids.meshes, out));
     out.depth = node_depth(medium, out);
     set_mean_rest(out, out.mean_rest);
     PILEUS_TRY(make_half(out));
     weigh_half(out);
     out.walls = OrdinateWalls{};
     out.half.nodes.walls = OrdinateWalls{};
-    return any ? place_all_walls(context, solids, out) : Status::ok();
+    return solids.meshes != nullptr ? place_all_walls(context, solids, out) : Status::ok();
 }
 
 double node_depth(const Medium& medium, const OrdinateNodes& out) {
@@ -186,8 +186,8 @@ void light_all_surfaces(const Context& context, const Medium& medium, const Majo
 /// Ways end at the ground: where a host has moved it they are found again, and so is all light.
 Status follow_ground(const Context& context, const Lighting& lighting, OrdinateNodes& nodes) {
     const OrdinateSolids solids = ordinate_solids(lighting);
-    const bool any = solids.meshes != nullptr && !solids.meshes->empty() && !nodes.ring;
-    if (!any || nodes.walls.ground_z == solids.ground_z) return Status::ok();
+    if (solids.meshes == nullptr || nodes.ring || nodes.walls.ground_z == solids.ground_z)
+        return Status::ok();
     PILEUS_TRY(place_all_walls(context, solids, nodes));
     nodes.ground.known.fill(false);
     for (OrdinateSet& set : nodes.sets) set.solved = false;

@@ -326,7 +326,7 @@ void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)
 
 /// Solids among nodes, and the ground that they stand on.
 struct OrdinateSolids {
-    const Solids* meshes = nullptr;      ///< null or empty: none
+    const Solids* meshes = nullptr;      ///< null: none
     double ground_z = -__builtin_inf();  ///< m, box-local; -infinity: none
 };
 OrdinateSolids ordinate_solids(const Lighting& lighting);

@@ -89,7 +89,8 @@ struct WallLight {
     float* around;  ///< [kAroundTerms][node with ways], out; null: not wanted
 };
 /// Sources of nodes beside solids, before a sweep.
-void keep_sources(const OrdinateCells& nodes, const WallLight& light, OrdinateWalls& walls);
+void keep_sources(const Context& context, const OrdinateCells& nodes, const WallLight& light,
+                  OrdinateWalls& walls);
 
 /// What solids send on of the radiance that leaves the nodes beside them; `begins`: light of `mean`
 /// from all sides in its place. Returns its change over its norm.

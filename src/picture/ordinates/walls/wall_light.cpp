@@ -59,12 +59,14 @@ void each_direction(const OrdinateCells& nodes, const WallLight& light, std::siz
 
 }  // namespace
 
-void keep_sources(const OrdinateCells& nodes, const WallLight& light, OrdinateWalls& w) {
+void keep_sources(const Context& context, const OrdinateCells& nodes, const WallLight& light,
+                  OrdinateWalls& w) {
     const std::size_t all = std::size_t(node_count(nodes.grid)), lit = w.nodes.size();
-    for (std::size_t n = 0; n < lit; ++n)
+    parallel_each(context.threads, lit, [&](std::size_t n) {
         each_direction(nodes, light, std::size_t(w.nodes[n]), [&](std::size_t j, std::size_t at) {
             w.sources[j * lit + n] = light.radiance[j * all + at];
         });
+    });
 }
 
 double light_walls(const Context& context, const OrdinateCells& nodes, const WallLight& light,

@@ -160,7 +160,6 @@ void find_way(const WayThrough& way, const NodePlace& p, std::int32_t place, Fou
         for (float& d : to) d /= metres;
         if (!meet(way.solids, at, to, metres, weight[t], m)) continue;
         weight[t] = 0;
-        m.surface.beyond = 0;
         m.within = true;
     }
     if (outside > 0) {

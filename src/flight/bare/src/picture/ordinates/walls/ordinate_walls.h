@@ -43,7 +43,7 @@ inline Status place_walls(const Context&, const Solids&, double, OrdinateCells&)
 inline Status hold_walls(std::uint64_t, bool, OrdinateWalls&) { return Status::ok(); }
 inline void light_surfaces(const Context&, const Medium&, const Majorants&, const Lighting&,
                            const float (&)[3], OrdinateWalls&) {}
-inline void keep_sources(const OrdinateCells&, const WallLight&, OrdinateWalls&) {}
+inline void keep_sources(const Context&, const OrdinateCells&, const WallLight&, OrdinateWalls&) {}
 inline double light_walls(const Context&, const OrdinateCells&, const WallLight&, bool, float,
                           OrdinateWalls&) {
     return 0;
