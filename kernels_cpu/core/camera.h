@@ -3,6 +3,7 @@
 // in: pixels, of all of a picture or of a window of it -> out: origin and unit direction.
 // Plain pinhole or orthographic; the basis is made once on the host (src/world/camera/view.h).
 #pragma once
+#include "kernels_cpu/core/math.h"
 #include "kernels_cpu/core/vec.h"
 
 namespace pileus {
@@ -23,6 +24,9 @@ struct CameraParams {
     /// Of several parts of a picture, this one: of its rows, eight of each `parts` times eight; 1:
     /// there is one.
     std::int32_t parts = 1, part = 0;
+    /// 1: columns are azimuths from north to east, all around, and rows angles from the zenith to
+    /// the horizon.
+    std::int32_t dome = 0;
 };
 
 /// Rows that stay together where a picture is divided.
@@ -58,10 +62,20 @@ PILEUS_FN PlanePlace<T> plane_place(const CameraParams& c, T x, T y) {
             (1.0f - (y + 0.5f) * (2.0f / float(whole_height(c)))) * c.half_height + c.shift_y};
 }
 
+/// The same of a dome.
+template <class T>
+PILEUS_FN Ray<T> dome_ray(const CameraParams& c, T x, T y) {
+    const SinCos<T> turn = sincos_turns((x + 0.5f) * (1.0f / float(whole_width(c))));
+    const SinCos<T> down = sincos_turns((y + 0.5f) * (0.25f / float(whole_height(c))));
+    return {{all<T>(c.origin[0]), all<T>(c.origin[1]), all<T>(c.origin[2])},
+            {turn.sine * down.sine, turn.cosine * down.sine, down.cosine}};
+}
+
 /// Ray through a place in the whole picture, in pixels; y = 0 at the top, whole numbers in their
 /// middles.
 template <class T>
 PILEUS_FN Ray<T> picture_ray(const CameraParams& c, T x, T y) {
+    if (c.dome != 0) return dome_ray(c, x, y);
     const PlanePlace<T> place = plane_place(c, x, y);
     const T sx = place.x, sy = place.y;
     const Vec<T> offset{c.right[0] * sx + c.up[0] * sy, c.right[1] * sx + c.up[1] * sy,

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/light/ground.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -72,6 +73,24 @@ PILEUS_FN T depth_on_ground(const BackgroundParams& k, const BackgroundBuffers& 
     return optical_depth(k.medium, Ray<T>{at, to_sun}, wanted);
 }
 
+/// Radiance of the ground along rays that meet it: of `sunlight` what arrives of the sun's,
+/// `scattered` by media.
+template <class T>
+PILEUS_FN void ground_light(const BackgroundParams& k, const Ray<T>& ray, T depth, M_of<T> ground,
+                            const T (&sunlight)[3], const T (&scattered)[3], T (&out)[3]) {
+    if (!is_painted(k.paint) || !any(ground)) {
+        for (int c = 0; c < 3; ++c)
+            out[c] = k.ground_diffuse[c] + k.ground_sun[c] * sunlight[c] + scattered[c];
+        return;
+    }
+    T diffuse[3];
+    for (int c = 0; c < 3; ++c) diffuse[c] = k.ground_diffuse[c] + scattered[c];
+    const T way = select(ground, depth, T{});
+    painted_ground(k.paint, along(ray, way), ray.direction,
+                   k.camera.orthographic != 0 ? all<T>(1.0f) : way, diffuse, k.ground_sun, sunlight,
+                   k.to_sun, out);
+}
+
 /// What W pixels show behind the media, and how far it is; infinity for the sky.
 template <class T>
 struct Behind {
@@ -106,10 +125,9 @@ PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const Backgro
     Vec<T> sky{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
     if (k.sky_map.columns > 0) sky = map_radiance(k.sky_map, ray.direction);
     const T above[3] = {sky.x, sky.y, sky.z};
-    for (int c = 0; c < 3; ++c) {
-        const T below = k.ground_diffuse[c] + k.ground_sun[c] * sunlight[c] + scattered[c];
-        out.colour[c] = select(ground, below, above[c]);
-    }
+    T below[3];
+    ground_light(k, ray, out.depth, ground, sunlight, scattered, below);
+    for (int c = 0; c < 3; ++c) out.colour[c] = select(ground, below[c], above[c]);
     return out;
 }
 

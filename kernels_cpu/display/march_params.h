@@ -4,6 +4,7 @@
 // docs/methods.md 3, repairs 3 and 4.
 #pragma once
 #include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/light/ground_params.h"
 #include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "kernels_cpu/media/detail_params.h"
@@ -169,6 +170,7 @@ struct BackgroundParams {
     float to_sun[3];
     NodeGrid shadow;         ///< of optical depths on the ground; size 0: rays look for themselves
     float shadow_origin[2];  ///< m, box-local
+    GroundPaint paint;
 };
 
 /// Light that falls on a surface from all around but the sun, over pi: harmonics of its normal.

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/camera.h"
 #include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/light/ground_params.h"
 #include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_sample.h"
 #include "kernels_cpu/light/sun_heights_params.h"
@@ -62,6 +63,7 @@ struct PathParams {
     std::int32_t ground;   ///< 0: none
     float ground_z;        ///< m
     float ground_albedo;
+    GroundPaint paint;
 
     std::int32_t max_depth;  ///< scatterings after which light is not followed; >= 1
     Key key;                 ///< made from (seed, stream, high half of the sample's number)

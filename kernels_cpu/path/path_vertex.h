@@ -4,79 +4,14 @@
 // docs/path.md: next-event estimation; sky maps by the balance heuristic (Veach 1997, 9.2).
 #pragma once
 #include "kernels_cpu/core/meshes.h"
-#include "kernels_cpu/light/lambert.h"
 #include "kernels_cpu/light/sun_heights.h"
-#include "kernels_cpu/path/path_guide.h"
-#include "kernels_cpu/path/path_lamps.h"
+#include "kernels_cpu/path/path_sea.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Reflections after which a path is given up, where solids reflect all light.
 constexpr std::int32_t kMaxBounces = 1 << 14;
-
-/// Of the shadow rays that leave the lanes of `m`, leave out by luck those that would bring little:
-/// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
-/// theirs, `shade` is raised. Rays of the first vertex, which carry the picture's detail, are all
-/// kept. `spare` are 16 random bits. Returns the lanes that fly.
-template <int W, int NC, int K>
-PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<W> value,
-                             U<W> spare, F<W>& shade) {
-    using T = F<W>;
-    constexpr float kSteps = 0x1p16f;
-    const M<W> low = m & (heaviest(s) * value < k.light_roulette) & (s.order + s.bounces > 1);
-    if (!any(low)) return m;
-    const T least = select(low, heaviest(s) * value, T{}) * (1.0f / k.light_roulette);
-    const T chance = whole_chance(least, kSteps);
-    const M<W> lost = low & lnot(to_float(reinterpret<I<W>>(spare)) < chance * kSteps);
-    shade = select(low, shade / chance, shade);
-    return m & lnot(lost);
-}
-
-/// Choose the first flight from a new vertex: the sun's, the map's or the path's own. The lanes of
-/// `mapped` have a ray to the map.
-template <int W, int NC, int K>
-PILEUS_FN void first_flight(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, M<W> mapped,
-                            U<W> spare) {
-    M<W> sun = m & (s.shade > 0.0f);
-    if (k.sunlit != 0) sun = thin_out_rays(s, k, sun, s.shade, spare, s.shade);
-    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
-    s.flight = select(mapped, all<I<W>>(kFlightMap), s.flight);
-    s.mapped = (s.mapped & lnot(m)) | mapped;
-    if (k.sunlit != 0) s.flight = select(sun, all<I<W>>(kFlightSun), s.flight);
-    mapped = m & (s.flight == kFlightMap);
-    s.shade = select(mapped, s.map_shade, s.shade);
-}
-
-/// Draw a direction towards the map for the lanes of `m`; returns 16 random bits that are left.
-template <int W, int NC, int K>
-PILEUS_FN U<W> aim_at_map(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
-    const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
-    const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
-    s.to_map.x = select(m, d.x, s.to_map.x);
-    s.to_map.y = select(m, d.y, s.to_map.y);
-    s.to_map.z = select(m, d.z, s.to_map.z);
-    return spare_bits(place);
-}
-
-/// Value over the sum of both densities: what the balance heuristic makes of a light's share, as
-/// the path draws its own directions with a density equal to that value.
-template <class T>
-PILEUS_FN T balanced(T own, T other) {
-    return own / max_(own + other, all<T>(1e-30f));
-}
-
-/// Weigh the ray to the map, drawn where a path's own turn has the density `own`, and choose the
-/// lanes of `m` in which it flies.
-template <int W, int NC, int K>
-PILEUS_FN M<W> map_rays(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
-    const F<W> other = sky_density(k.map, k.sampler, s.to_map);
-    F<W> shade = balanced(own, other);
-    // The map's light, all of it, times the density of this direction is its radiance.
-    const M<W> mapped = thin_out_rays(s, k, m & (shade > 0.0f), shade * other, spare, shade);
-    s.map_shade = select(m, shade, s.map_shade);
-    return mapped;
-}
 
 /// Real collisions in the lanes of `m`.
 template <int W, int NC, int K>
@@ -119,7 +54,7 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
     });
     M<W> mapped = m & lnot(m), mappable = m;
     if constexpr (kGuided<K>) mappable = m & lnot(s.branch);
-    if (map) mapped = map_rays(s, k, mappable, to_map_density, map_luck);
+    if (map) mapped = map_rays(s, k, mappable, to_map_density, to_map_density, map_luck);
     const SinCos<T> phi = sincos_turns(uniform(w.b));
     const Vec<T> d = turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
     s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
@@ -158,6 +93,12 @@ PILEUS_FN void reflect_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
     s.outside = s.outside | m;
     s.vertex = {select(m, at.x, s.vertex.x), select(m, at.y, s.vertex.y),
                 select(m, at.z, s.vertex.z)};
+    if (is_painted(k.paint)) {
+        T share[3];
+        ground_share(k.paint, at, I<W>{}, share);
+        if (k.paint.sea != nullptr) return reflect_at_sea(s, k, m, at, share);
+        for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * share[c], s.beta[c]);
+    }
     for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * k.ground_albedo, s.beta[c]);
     const Words<U<W>> w = draw(s, k, m);
     const Lambert<T> up = lambert(w);
@@ -168,7 +109,8 @@ PILEUS_FN void reflect_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
     M<W> mapped = m & lnot(m);
     if (k.map.columns > 0) {
         const U<W> luck = aim_at_map(s, k, m);
-        mapped = map_rays(s, k, m, max_(s.to_map.z, T{}) * kInvPi, luck);
+        const T facing = max_(s.to_map.z, T{}) * kInvPi;
+        mapped = map_rays(s, k, m, facing, facing, luck);
     }
     if constexpr (kGuided<K>)
         seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(way.z, T{}) * kInvPi; });
@@ -204,7 +146,8 @@ PILEUS_FN void reflect_at_solid(PathLanes<W, NC, K>& s, const PathParams& k, Pat
     M<W> mapped = m & lnot(m);
     if (k.map.columns > 0) {
         const U<W> luck = aim_at_map(s, k, m);
-        mapped = map_rays(s, k, m, max_(dot(s.to_map, n), T{}) * kInvPi, luck);
+        const T facing = max_(dot(s.to_map, n), T{}) * kInvPi;
+        mapped = map_rays(s, k, m, facing, facing, luck);
     }
     if constexpr (kGuided<K>)
         seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(dot(way, n), T{}) * kInvPi; });

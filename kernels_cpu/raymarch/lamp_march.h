@@ -9,6 +9,7 @@
 #include "kernels_cpu/display/beam.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/display/pixel_light.h"
+#include "kernels_cpu/light/ground.h"
 #include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
@@ -271,10 +272,32 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
 /// What a ray ends at: the ground, or a solid before it.
 template <class T>
 struct LampSurface {
-    M_of<T> met;
+    M_of<T> met, water;
     Vec<T> at, normal;
     T albedo[3];
+    Vec<T> from;  // of water: where it is seen from, its facets, what of them is seen
+    SeaPlace<T> facets;
+    T seen;
 };
+
+/// Albedos of a painted ground in place of the grey one.
+template <class T>
+PILEUS_FN void paint_lit_ground(const LampMarchParams& k, const Ray<T>& ray, T opaque,
+                                LampSurface<T>& s) {
+    const T rise = max_(T{} - ray.direction.z, T{});
+    const T way = k.camera.orthographic != 0 ? all<T>(1.0f) : select(s.met, opaque, T{});
+    const T metres = pixel_on_ground(k.paint, way, rise);
+    T share[3], enters = all<T>(1.0f);
+    ground_share(k.paint, s.at, map_level(k.paint, metres), share);
+    if (k.paint.sea != nullptr) {
+        s.water = s.met;
+        s.from = {T{} - ray.direction.x, T{} - ray.direction.y, rise};
+        s.facets = sea_place(*k.paint.sea, k.paint.waves, s.at, metres);
+        s.seen = sea_sight(*k.paint.sea, s.facets, s.from).seen;
+        enters = 1.0f - sea_reflects(*k.paint.sea, rise);
+    }
+    for (int c = 0; c < 3; ++c) s.albedo[c] = s.albedo[c] * share[c] * enters;
+}
 
 /// Of rays that end `opaque` metres away, unless a depth image has something nearer there.
 template <class T>
@@ -297,6 +320,8 @@ PILEUS_FN LampSurface<T> lamp_surface(const LampMarchParams& k, const Ray<T>& ra
     s.at.z = all<T>(k.ground_z);
     s.normal.z = all<T>(1.0f);
     for (T& albedo : s.albedo) albedo = all<T>(k.ground_albedo);
+    s.water = s.met & lnot(s.met);
+    if (is_painted(k.paint) && any(s.met)) paint_lit_ground(k, ray, opaque, s);
     if (!any(solid)) return s;
     const SolidPlace<T> place = place_on_solid(k.solids, ray.origin, ray.direction, hit);
     const auto take = [&](T& own, T of_solid) { own = select(solid, of_solid, own); };
@@ -324,12 +349,18 @@ PILEUS_FN void light_surface(const LampMarchParams& k, const LampMarchBuffers& b
             if (!any(lit)) return;
             const T tau = depth_to_lamp(k.medium, s.at, sight, lit);
             const T light = cosine * sight.share;
-            T through{};
+            T through{}, glint{}, density;
+            if (is_painted(k.paint) && any(s.water)) {
+                glint = sight.share * sea_glint(s.facets, s.seen, s.from, sight.way, density);
+                glint = select(s.water, glint, T{});
+            }
             for (int c = 0; c < 3; ++c) {
                 if (c == 0 || k.surface_rest[c] != k.surface_rest[0])
                     through = exp_(T{} - tau * k.surface_rest[c]);
                 colour[c] = colour[c] + select(lit, light * through * (s.albedo[c] * kInvPi), T{}) *
                                             lamp.light[c];
+                if (is_painted(k.paint) && any(s.water))
+                    colour[c] = colour[c] + select(lit, glint * through, T{}) * lamp.light[c];
             }
         };
         if (!(lamp.radius > 0.0f)) {

@@ -40,6 +40,7 @@ struct LampMarchParams {
     std::int32_t ground;   ///< 0: none
     float ground_z;        ///< m
     float ground_albedo;
+    GroundPaint paint;
     SolidsView solids;  ///< lit, too, and in each other's way; none: of other methods
 };
 

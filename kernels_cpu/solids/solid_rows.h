@@ -184,13 +184,13 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
     for (int c = 0; c < 3; ++c)
         around[c] = max_(around_light(k.around[c], s.place.normal) + changed[c], T{});
     if (b.around.count > 0) around_from_nodes(k, b, s, around);
+    T ground[3];
+    ground_light(k.back, ray, s.depth, s.ground, s.sunlight, scattered, ground);
     for (int c = 0; c < 3; ++c) {
         const T sun =
             k.sun_heights.rows != 0 ? sun_at(k.sun_heights, s.place.at.z, c) : all<T>(k.sun[c]);
-        const T ground =
-            k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight[c] + scattered[c];
         const T solid = s.place.albedo[c] * (around[c] + sun * s.sunlight[c]);
-        out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
+        out[c] = select(s.solid, solid, select(s.ground, ground[c], above[c]));
     }
 }
 

@@ -81,6 +81,8 @@ enum class Feature {
     kGroundOnMedia,
     kMediaOnGround,
     kShadowOnGround,
+    kGroundMap,
+    kSea,
     kSolids,
     kDepthImage,
     kOrthographic,

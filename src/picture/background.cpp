@@ -117,6 +117,17 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
         k.to_sun[c] = light.to_sun[c];
         k.sun_rest[c] = 1;
     }
+    k.paint = light.ground.paint;
+    if (k.paint.sea != nullptr) {
+        const Double3 sun = sun_at_height(light, light.ground.z);
+        for (int c = 0; c < 3; ++c) {
+            k.paint.sun[c] = light.ground.sun == Double3{} ? 0.0f : float(sun[c]);
+            k.paint.even[c] = float(light.sky[c]);
+        }
+        k.paint.sky = light.map;
+    }
+    // Of pixels' rays; parallel ones lie as far apart as pixels.
+    k.paint.texel_turn = 2 * camera.half_height / float(whole_height(camera));
     // The sky before air is the air's own (air_view.h).
     if (light.air)
         for (float& c : k.sky) c = 0;

@@ -31,6 +31,18 @@ inline bool is_on_map(const Double3& place) {
 }
 constexpr const char* kPlacesOnMap = "longitude -360 to 360, latitude -90 to 90";
 
+/// What the level ground looks like beside its mean albedo.
+struct GroundSurface {
+    bool sea = false;
+    double wind_m_s = 6;                ///< over the sea
+    double wind_from_deg = 240;         ///< from north towards east
+    Float3 colour{1, 1, 1};             ///< albedo by channel over Ground::albedo
+    std::string map;                    ///< image of its albedo; empty: none
+    std::array<double, 2> map_low_m{};  ///< south-west corner of the map, x and y
+    std::array<double, 2> map_size_m{};
+    bool map_repeats = false;
+};
+
 struct Lens {
     double aperture_radius_m = 0;  ///< 0: a pinhole
     double focus_distance_m = 0;   ///< along the view; 0: the target's
@@ -51,6 +63,7 @@ struct Description {
     CloudsSettings clouds;  ///< kinds and places of many clouds, in place of media
     std::string method = "collectors";
     ViewFiles view_files;
+    GroundSurface surface;
     Lens lens;
     std::array<int, 4> crop{};  ///< x0, y0, x1, y1: pixels of the picture that are shown, ends
                                 ///< exclusive; all 0: the whole picture

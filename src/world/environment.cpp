@@ -37,10 +37,20 @@ auto with_shining(const Scene& scene, const World& world, const Environment& env
                   const Use& use) {
     const bool solids = !scene.solids.empty();
     if (!environment.air.present())
-        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids, {}});
+        return use(Shining{scene.sun,
+                           scene.sky,
+                           scene.ground,
+                           scene.lights,
+                           solids,
+                           {},
+                           &environment.look,
+                           &scene.surface,
+                           &scene.placement,
+                           scene.world.wind_s});
     const InAir lit = in_air(scene, environment.air);
     return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids,
-                       by_height(scene, environment.air, world.medium.low_m[2])});
+                       by_height(scene, environment.air, world.medium.low_m[2]), &environment.look,
+                       &scene.surface, &scene.placement, scene.world.wind_s});
 }
 
 }  // namespace
@@ -48,6 +58,7 @@ auto with_shining(const Scene& scene, const World& world, const Environment& env
 Status outline_environment(const Scene& scene, const Context& context, const World& world,
                            const Image* sky, Environment& environment) {
     outline_camera_depth(scene, environment.depth);
+    PILEUS_TRY(make_ground_look(scene, context, environment.look));
     if (!kAtmosphere || !scene.atmosphere.present)
         return read_sky_map(scene, context, sky, environment.sky_map);
     const StageClock clock(context, "atmosphere");
@@ -71,8 +82,10 @@ Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Gro
     const Medium& medium = world.medium;
     const double sea_m = ground.present ? ground.altitude_m : 0;
     const double height_m = medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m;
+    Ground lit = ground;
+    lit.albedo = ground_albedo(environment.look, ground.albedo, 1).even;
     Image image;
-    PILEUS_TRY(light_atmosphere(settings, sun, ground, height_m, threads, environment.air, image));
+    PILEUS_TRY(light_atmosphere(settings, sun, lit, height_m, threads, environment.air, image));
     SkyMap map;
     PILEUS_TRY(make_sky_map("atmosphere", image, Sky{}, ground.present, map));
     environment.sky_map = std::move(map);

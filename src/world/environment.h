@@ -12,6 +12,7 @@ struct Environment {
     Atmosphere air;  ///< of a scene with [atmosphere], whose sky is the map
     SkyMap sky_map;  ///< of a file, of a host, or of the air
     CameraDepth depth;
+    GroundLook look;
 };
 
 /// What sizes tell. A sky map is read at once, as lights, and with them the plan, depend on its

@@ -14,9 +14,10 @@ std::uint64_t most_tracking_blocks(const Grid& grid, bool local) {
     return block_total(grid, voxel_count(grid) <= kMaxSingleVoxels ? 1 : 2);
 }
 
-SkyMapBytes sky_map_bytes(const SkyMap& map) {
+SkyMapBytes sky_map_bytes(const SkyMap& map, const GroundLook& look) {
     // Four channels decoded, and the file, which is hardly larger than its values.
-    return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1])};
+    return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1]),
+            look.bytes()};
 }
 
 /// src/world/medium
@@ -30,6 +31,7 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
     t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
+    t.add("map of the ground", Stage::kDensity, Stage::kWrite, sky.ground);
     t.add("file while it is read", Stage::kDensity, Stage::kDensity, source.reading_bytes);
     t.add("density, turned", Stage::kDensity, Stage::kDensity,
           bytes_of(source.turned_voxels, kFloat));

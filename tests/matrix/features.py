@@ -108,6 +108,18 @@ def no_ground(s, r, d):
     s.pop("ground", None)
 
 
+def ground_map(s, r, d):
+    """Squares of two colours, over part of what is seen or all of it."""
+    write_pfm(f"{d}/squares.pfm", 8, 8, lambda x, y: (0.5, 0.3, 0.1) if (x + y) % 2 else (0.05, 0.2, 0.3))
+    s["ground"].update(map="squares.pfm", map_low_m=[-1600.0, -1600.0], map_size_m=[3200.0, 3200.0],
+                       map_repeats=r.choice([True, False]))
+
+
+def sea(s, r, d):
+    s["ground"].pop("albedo")
+    s["ground"].update(surface="sea", sea_wind_m_s=r.choice([0.0, 5.0, 15.0]))
+
+
 def orthographic(s, r, d):
     s["camera"].pop("fov_deg", None)
     s["camera"].update(projection="orthographic", height_m=2200.0)
@@ -231,6 +243,8 @@ FEATURES = [
     ("depth", "camera.depth, set_depth", "", depth_image),
     ("ground-white", "[ground]", "ground", white_ground),
     ("ground-none", "[ground]", "ground", no_ground),
+    ("ground-map", "ground.map, ground.colour", "ground", ground_map),
+    ("sea", "ground.surface sea", "ground", sea),
     ("orthographic", "camera.projection orthographic", "camera", orthographic),
     ("lens", "camera.aperture_radius_m, camera.shutter_s", "camera", lens),
     ("inside", "camera within media", "camera", inside),

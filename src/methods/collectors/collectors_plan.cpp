@@ -54,7 +54,7 @@ CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& s
     s.photons.coefficients = std::uint64_t(state.lights.deposit.coefficients);
     s.photons.lights = state.lights.lighting.lights.size();
     s.phases = phase_bytes(view.world.medium);
-    s.sky = sky_map_bytes(view.environment.sky_map);
+    s.sky = sky_map_bytes(view.environment.sky_map, view.environment.look);
     s.photons.slots = photon_slots(state);
     s.photons.sums_ring = sums_ring(state);
     s.photons.ground_cells =

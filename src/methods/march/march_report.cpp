@@ -205,7 +205,8 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     const Stage last = again ? Stage::kWrite : Stage::kDisplay;
     MemoryTable t;
     add_density_rows(grid, view.world.source, std::uint64_t(medium.count), phase_bytes(medium),
-                     std::uint64_t(context.threads), sky_map_bytes(view.environment.sky_map), t);
+                     std::uint64_t(context.threads),
+                     sky_map_bytes(view.environment.sky_map, view.environment.look), t);
     if (view.world.direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, state.media.outlined_only ? 1 : state.media.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
@@ -217,6 +218,8 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::sky_light_nodes(
                    sky_light_levels(view.world.layer.params, sky_light_bits(state.choice)),
                    sky_light_bits(state.choice), last));
+    if (lighting.ground.paint.sea != nullptr)
+        t.add("mirrored sky", Stage::kShadow, last, bytes_of(10 * kFloat, kMirrorTexels));
     add(t, arrays::lamp_depths(lamp_numbers(medium, lighting, has_lamp_spots(view, state.choice))));
     if (caps_extinction(view, state)) add(t, arrays::capped_density(grid));
     if (has_sun_grid(view, state)) {

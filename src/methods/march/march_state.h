@@ -83,6 +83,15 @@ struct MarchLight {
 };
 
 /// The last picture.
+/// What a sea mirrors, of so many directions.
+constexpr int kMirrorColumns = 192, kMirrorRows = 48;
+constexpr std::uint64_t kMirrorTexels = std::uint64_t(kMirrorColumns) * kMirrorRows;
+struct SeaMirror {
+    Planes planes;
+    Buffer<float> texels;  ///< [3][row][column]
+    SkyMapView map{};      ///< no columns: nothing
+};
+
 struct MarchPicture {
     std::array<int, 2> size{};
     bool opaque = false;  ///< something solid could be in it
@@ -90,6 +99,7 @@ struct MarchPicture {
     UpsampleMemory upsample;
     Buffer<float> noise;  ///< tile of the jitter; empty: none
     RaymarchTally tally;  ///< of all pictures so far
+    SeaMirror mirror;
 };
 
 struct MarchState {

@@ -129,7 +129,7 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
     MemoryTable t;
     add_density_rows(grid, view.world.source, std::uint64_t(view.world.medium.count),
                      phase_bytes(view.world.medium), std::uint64_t(context.threads),
-                     sky_map_bytes(view.environment.sky_map), t);
+                     sky_map_bytes(view.environment.sky_map, view.environment.look), t);
     add_majorant_rows(grid, state.outlined_only ? 1 : state.majorants.tracking.size(),
                       std::uint64_t(context.threads), Stage::kWrite, t);
     // Before the file is read its bytes, which hold all children too, bound the particles.

@@ -89,6 +89,16 @@ void add_medium(const PathInput& in, Digest& d) {
     d.floats(in.majorants);
 }
 
+void add_paint(const GroundPaint& paint, Digest& d) {
+    for (const float share : paint.share) d.f32(share);
+    if (paint.sea != nullptr) d.f32(paint.sea->slope);
+    const GroundMapView& map = paint.map;
+    if (map.columns == 0) return;
+    for (const float v : map.to_column) d.f32(v);
+    for (const float v : map.to_row) d.f32(v);
+    d.floats({map.albedo, std::size_t(map.texels) * std::size_t(map.planes)});
+}
+
 void add_light(const Lighting& light, Digest& d) {
     d.u32(light.sunlit ? 1 : 0);
     d.u32(light.ground.present ? 1 : 0);
@@ -102,6 +112,7 @@ void add_light(const Lighting& light, Digest& d) {
         d.f32(float(sun_at_height(light, light.ground.z)[int(c)]));
     d.f32(float(light.ground.z));
     d.f32(float(light.ground.albedo));
+    if (light.ground.paint.on != 0) add_paint(light.ground.paint, d);
     for (const LampParams& lamp : light.lamps) {
         d.u32(std::uint32_t(lamp.parallel));
         for (std::size_t c = 0; c < 3; ++c) {

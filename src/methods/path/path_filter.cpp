@@ -18,8 +18,8 @@ bool has_sky(const Lighting& light) {
 /// Whether all that is solid is a ground under the sun and an even sky, or that of clear air. Then
 /// its light is filtered, too, and media have the same light before it and before the sky.
 bool has_plain_ground(const Lighting& light) {
-    return light.ground.present && !has_surfaces(light) && light.lamps.empty() &&
-           (light.map.columns == 0 || light.air);
+    return light.ground.present && light.ground.paint.on == 0 && !has_surfaces(light) &&
+           light.lamps.empty() && (light.map.columns == 0 || light.air);
 }
 
 bool is_solid(const Planes& p, std::size_t i) {

@@ -31,6 +31,9 @@ const char* unknown_keys(const Scene& scene) {
     if (scene.sun.angular_radius_deg > 0) return "sun.angular_radius_deg";
     if (scene.path.max_depth > 0) return "path.max_depth";
     if (scene.camera.flux) return "a flat detector";
+    const GroundSurface& surface = scene.surface;
+    if (surface.sea || !surface.map.empty() || surface.colour != Float3{1, 1, 1})
+        return "a map, colours or a sea on the ground";
     return nullptr;
 }
 
@@ -68,6 +71,7 @@ const char* why_no_importance(const FrameView& view) {
     if (const char* part = unknown_keys(view.scene)) return part;
     if (!light.lamps.empty()) return "[[light]]";
     if (view.environment.depth.present) return "solids";
+    if (light.ground.paint.on != 0) return "a map, colours or a sea on the ground";
     if (light.map.columns > 0 || view.environment.sky_map.size[0] > 0) return "a sky map";
     if (light.air || light.sun_heights.rows > 0) return "[atmosphere]";
     return unasked(view.scene, view.world);

@@ -132,7 +132,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     const std::uint64_t pixels = film_pixels(scene);
     const bool again = context.frames > 1;
     const Stage traced = again ? Stage::kWrite : Stage::kPaths;
-    const SkyMapBytes sky = sky_map_bytes(view.environment.sky_map);
+    const SkyMapBytes sky = sky_map_bytes(view.environment.sky_map, view.environment.look);
     MemoryTable t;
     add_density_rows(grid, view.world.source, std::uint64_t(view.world.medium.count),
                      phase_bytes(view.world.medium), std::uint64_t(context.threads), sky, t);

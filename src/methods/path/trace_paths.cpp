@@ -82,6 +82,8 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
     k.ground = light.ground.present ? 1 : 0;
     k.ground_z = float(light.ground.z);
     k.ground_albedo = float(light.ground.albedo);
+    k.paint = light.ground.paint;
+    if (has_coloured_ground(light)) k.channels = 3;
 }
 
 void set_lamps(const PathInput& in, PathParams& k) {
@@ -116,7 +118,8 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     set_lamps(in, k);
     k.importance = in.rules.importance;
     if (k.sunlit == 0) return k;
-    if (in.rules.guide) k.guide = scratch.guide;
+    // Light that a sea reflects into the guide's cone is no density of its turns.
+    if (in.rules.guide && k.paint.sea == nullptr) k.guide = scratch.guide;
     if (in.rules.sun_radius_deg > 0) set_disc(in.rules.sun_radius_deg, k);
     return k;
 }

@@ -86,7 +86,7 @@ MemoryTable memory_of(const FrameView& view, const PhotonGridState& state, const
     MemoryTable t;
     add_density_rows(view.world.medium.grid, view.world.source, Size(view.world.medium.count),
                      phase_bytes(view.world.medium), Size(context.threads),
-                     sky_map_bytes(view.environment.sky_map), t);
+                     sky_map_bytes(view.environment.sky_map, view.environment.look), t);
     add_photons(view, state, context, private_sums, t);
     add_picture(view, state, context, t);
     return t;

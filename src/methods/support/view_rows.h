@@ -9,6 +9,8 @@ namespace pileus {
 namespace support_rows {
 
 constexpr const char* kNoFlux = "measured by no method but path";
+constexpr const char* kNoSea = "a sea is shown by methods path and raymarch";
+constexpr const char* kSeaMethods = "land, or method.name = \"raymarch\"";
 constexpr Support kNoLens =
     refused("for billboards of particles alone",
             "0, or method.name = \"particles\" and particles.display = \"billboards\"");
@@ -30,6 +32,18 @@ constexpr FeatureRow kViewRows[] = {
     row(Feature::kShadowOnGround, FeatureGroup::kOfGround, "shadow of media on the ground", "", "",
         exact(), exact(), exact(), exact(), exact(), exact(), bounded("of the grid: 5 %"),
         bounded("as particles"), bounded("of each cloud's picture from the sun")),
+    row(Feature::kGroundMap, FeatureGroup::kOfGround, "ground.map, ground.colour", "ground.map",
+        "all but path light media by the mean", bounded("light on media: of the mean, 5 %"),
+        bounded("as collectors"), bounded("as collectors"), exact(), bounded("as collectors"),
+        bounded("as collectors"), bounded("as collectors"), bounded("as collectors"),
+        bounded("as collectors")),
+    row(Feature::kSea, FeatureGroup::kOfGround, "ground.surface sea", "ground.surface", "",
+        refused(kNoSea, kSeaMethods), refused(kNoSea, kSeaMethods), refused(kNoSea, kSeaMethods),
+        exact(),
+        bounded("8 %: sky and clouds by a map of them from the camera's mirror image; "
+                "solids are not mirrored"),
+        bounded("as raymarch"), refused(kNoSea, kSeaMethods), refused(kNoSea, kSeaMethods),
+        refused(kNoSea, "land")),
     row(Feature::kSolids, FeatureGroup::kOfGround, "[[solid]]", "solid.N",
         "below media as the ground there by ordinates over a ground with an albedo; else all but "
         "path: surfaces have all of the sky, x 2 below thick decks, as the plan says",

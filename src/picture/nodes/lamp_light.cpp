@@ -140,6 +140,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
     k.ground = lighting.ground.present ? 1 : 0;
     k.ground_z = float(lighting.ground.z);
     k.ground_albedo = float(lighting.ground.albedo);
+    k.paint = lighting.ground.paint;
+    k.paint.texel_turn = 2 * k.camera.half_height / float(whole_height(k.camera));
     return k;
 }
 

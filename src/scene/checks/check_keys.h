@@ -62,6 +62,8 @@ void conflict(SceneCheck& check, const std::string& key, const char* with);
 
 /// Laws between the keys of one medium: density, file, phase, bounds.
 void check_medium(SceneCheck& check, std::size_t index);
+/// Laws between the keys of the ground's surface.
+void check_surface(SceneCheck& check);
 /// Laws between the keys of detail beyond its grid.
 void check_detail(SceneCheck& check, std::size_t index);
 /// Each phase function has its own keys: all of them, and no others.

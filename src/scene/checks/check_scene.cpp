@@ -280,6 +280,7 @@ void check_laws(SceneCheck& check) {
     }
     check_camera(check);
     check_ground(check);
+    check_surface(check);
     check_sky(check);
     check_atmosphere(check);
     check_output(check);

@@ -19,6 +19,9 @@ template <auto... Members>
 constexpr KeyField sky = field<&Scene::sky, Members...>;
 template <auto... Members>
 constexpr KeyField ground = field<&Scene::ground, Members...>;
+template <auto... Members>
+constexpr KeyField surface = field<&Scene::surface, Members...>;
+using Surface = GroundSurface;
 
 /// Two flags: parallel rays, and none at all.
 constexpr KeyField kProjection{
@@ -112,7 +115,27 @@ constexpr KeyRow kRows[] = {
     {"ground.altitude_m", ground<&Ground::altitude_m>, ranged(&Ground::altitude_m), "m",
      "height of the level ground; every medium and the camera stand above it"},
     {"ground.albedo", ground<&Ground::albedo>, ranged(&Ground::albedo), "",
-     "share of the light that the ground sends back, alike in all directions"},
+     "share of the light that the ground sends back, alike in all directions; of a sea what comes "
+     "out of the water, 0.022 where it is left out"},
+    {"ground.colour", surface<&Surface::colour>, from_to(0, 1000), "",
+     "albedo by channel over ground.albedo; of a sea, where it is left out, [0.2, 0.8, 2]"},
+    {"ground.surface", surface<&Surface::sea>, one_of("land|sea"), "",
+     "sea: waves of sea_wind_m_s that reflect sun, sky and clouds; methods `path` and `raymarch`"},
+    {"ground.sea_wind_m_s", surface<&Surface::wind_m_s>, from_to(0, 30), "m/s",
+     "wind at 12 m over the sea, which roughens it"},
+    {"ground.sea_wind_from_deg", surface<&Surface::wind_from_deg>, from_to(-360, 360), "deg",
+     "where that wind comes from, from north towards east: its waves run the other way"},
+    {"ground.map", surface<&Surface::map>, any(), "",
+     "image of the ground's albedo, north up: .png .exr or .pfm, numbers in [0, 1]; relative to "
+     "the "
+     "scene file, `${PILEUS_DATA_DIR}` may stand at its front. Beyond it ground.albedo",
+     kNoNote},
+    {"ground.map_low_m", surface<&Surface::map_low_m>, from_to(-1e9, 1e9), "m",
+     "x and y of the map's south-west corner"},
+    {"ground.map_size_m", surface<&Surface::map_size_m>, positive(1e9), "m",
+     "how far the map reaches from there, east and north; must be given with a map", kNoNote},
+    {"ground.map_repeats", surface<&Surface::map_repeats>, any(), "",
+     "whether the map begins again beyond its edges"},
 };
 
 template <auto Member>

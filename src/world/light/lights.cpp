@@ -65,12 +65,20 @@ void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map
     if (!out.ground.present) return;
     const double height = sincos_deg(elevation_deg).sine;
     out.ground.z = shining.ground.altitude_m - medium.low_m[2];
-    out.ground.albedo = shining.ground.albedo;
+    const double own = shining.ground.albedo;
+    GroundAlbedo albedo{own, own};
+    if (shining.look != nullptr) albedo = ground_albedo(*shining.look, own, height);
+    out.ground.albedo = albedo.even;
     Double3 sky = out.sky;
     if (map != nullptr) sky = map->ground_irradiance / kPi64;
     out.ground.diffuse = out.ground.albedo * sky;
-    out.ground.beam = out.ground.albedo / kPi64 * out.sun_irradiance * height;
-    out.ground.sun = out.ground.albedo / kPi64 * sun_at_height(out, out.ground.z) * height;
+    const Double3 sun = sun_at_height(out, out.ground.z);
+    out.ground.beam = albedo.sun / kPi64 * out.sun_irradiance * height;
+    out.ground.sun = albedo.sun / kPi64 * sun * height;
+    if (shining.look == nullptr) return;
+    out.ground.paint = make_paint(*shining.look, *shining.surface, own, albedo,
+                                  {medium.low_m[0], medium.low_m[1], medium.low_m[2]},
+                                  *shining.placement, shining.time_s);
 }
 
 bool is_dark(const Medium& medium) { return medium.sigma <= 0 || medium.density_max <= 0; }
@@ -238,6 +246,12 @@ Double3 sun_at_height(const Lighting& light, double z) {
     Double3 sun{};
     for (int c = 0; c < 3; ++c) sun[c] = double(sun_at(light.sun_heights, float(z), c));
     return sun;
+}
+
+bool has_coloured_ground(const Lighting& light) {
+    const GroundPaint& paint = light.ground.paint;
+    const bool grey = paint.share[0] == paint.share[1] && paint.share[0] == paint.share[2];
+    return light.ground.present && paint.on != 0 && (!grey || paint.map.planes == 3);
 }
 
 void set_one_sun(Lighting& light) {

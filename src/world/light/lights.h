@@ -12,6 +12,7 @@
 #include "kernels_cpu/light/sun_heights_params.h"
 #include "src/plan/plan.h"
 #include "src/scene/scene.h"
+#include "src/world/light/ground_look.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/medium/medium.h"
 
@@ -42,8 +43,9 @@ struct Light {
 /// The ground as a light. Radiances are those of it unshadowed, by what shines on it.
 struct GroundLighting {
     bool present = false;
-    double z = 0;  ///< m, box-local
-    double albedo = 0;
+    double z = 0;       ///< m, box-local
+    double albedo = 0;  ///< of even light
+    GroundPaint paint{};
     /// Of lamps that of parallel ones, which light it evenly.
     Double3 diffuse{}, sun{}, lamps{};
     Double3 beam{};  ///< as `sun`, by the sun as the media have it
@@ -96,6 +98,11 @@ struct Shining {
     const std::vector<LightSettings>& lamps;
     bool solids = false;  ///< the scene has some
     SunHeights sun_heights{};
+    /// What the ground looks like, and where the media stand on it; null: grey land.
+    const GroundLook* look = nullptr;
+    const GroundSurface* surface = nullptr;
+    const Placement* placement = nullptr;
+    double time_s = 0;  ///< that waves have run
 };
 
 /// The light of medium.emitters[which]: its radiance where the medium is thick and scatters
@@ -120,6 +127,9 @@ Double3 sun_at_height(const Lighting& light, double z);
 
 /// The sun at the media's middle everywhere: no air between them and the ground.
 void set_one_sun(Lighting& light);
+
+/// Whether the ground sends channels back unlike.
+bool has_coloured_ground(const Lighting& light);
 
 /// Whether all that shines is the same but for the sun's direction.
 bool same_shine(const Lighting& a, const Lighting& b);
