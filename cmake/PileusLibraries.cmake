@@ -55,7 +55,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OIDN SDL2 OSMESA EGL THREADS OPENMP MPI TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP TIFF OIDN SDL2 OSMESA EGL THREADS OPENMP MPI TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -97,7 +97,8 @@ if(PILEUS_BLOSC)
 endif()
 # Headers alone: the program loads these libraries when a scene asks for them, and starts
 # without them. A static program could load none.
-foreach(row "NETCDF netcdf_mem.h" "ECCODES eccodes.h" "ASSIMP assimp/cimport.h" "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
+foreach(row "NETCDF netcdf_mem.h" "ECCODES eccodes.h" "ASSIMP assimp/cimport.h" "TIFF tiffio.h"
+        "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
     separate_arguments(row)
     list(POP_FRONT row name header)
     if(PILEUS_${name} AND NOT CMAKE_CROSSCOMPILING)

@@ -65,8 +65,9 @@ PILEUS_FN void meet_solid(Photon<W, NC, S>& s, const TraceParams& k, TraceTally&
     s.event = select(m, s.event + 1u, s.event);
     s.order = select(m, s.order + 1, s.order);
     s.strayed = select(m, all<I<W>>(1), s.strayed);
-    const SolidPlace<T> place = place_on_solid(k.solids, photon_metres(s, k), s.d,
-                                               SolidHit<T>{T{}, select(m, s.piece, s.piece | -1)});
+    // Flat: photons bring what meets the triangle itself, and the ledger counts it.
+    const SolidPlace<T> place = place_on_solid<false>(
+        k.solids, photon_metres(s, k), s.d, SolidHit<T>{T{}, select(m, s.piece, s.piece | -1)});
     const T most = max_(max_(place.albedo[0], place.albedo[1]), place.albedo[2]);
     const U<W> number = s.index + k.first_photon, at = s.event * 4u;
     const Words<U<W>> first = threefry(k.key.k0, k.key.k1, number, at + 2u);

@@ -6,6 +6,7 @@
 #pragma once
 #include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/vec.h"
+#include "kernels_cpu/solids/smooth_normal.h"
 #include "kernels_cpu/solids/solids_params.h"
 
 #if defined(__CUDACC__)
@@ -133,11 +134,6 @@ struct SolidCells {
     std::int64_t cell[2];
 };
 
-PILEUS_FN std::int64_t whole_below(double v) {
-    const auto i = std::int64_t(v);
-    return double(i) > v ? i - 1 : i;
-}
-
 /// Metres along the ray to the next cell, and the axis of the face between.
 PILEUS_FN double next_solid_cell(const SolidCells& c, int& axis) {
     double nearest = 1e300;
@@ -250,14 +246,16 @@ PILEUS_FN M_of<T> behind_solids(const SolidsView& s, const Vec<T>& o, const Vec<
     return blocked > 0;
 }
 
-/// Where rays met solids: a place just off the surface on their own side, and the normal there.
+/// Where rays met solids: a place just off the surface on their own side, and the normal there,
+/// which on smooth ones is that of light.
 template <class T>
 struct SolidPlace {
     Vec<T> at, normal;
     T albedo[3];
 };
 
-template <class T>
+/// `Smooth`: normals of smooth solids lie between those of their corners; else all are flat.
+template <bool Smooth = true, class T>
 PILEUS_FN SolidPlace<T> place_on_solid(const SolidsView& s, const Vec<T>& o, const Vec<T>& d,
                                        const SolidHit<T>& hit) {
     SolidPlace<T> p{};
@@ -270,7 +268,7 @@ PILEUS_FN SolidPlace<T> place_on_solid(const SolidsView& s, const Vec<T>& o, con
         set_lane(p.normal.x, i, t.normal[0]);
         set_lane(p.normal.y, i, t.normal[1]);
         set_lane(p.normal.z, i, t.normal[2]);
-        for (int c = 0; c < 3; ++c) set_lane(p.albedo[c], i, s.albedo[3 * t.solid + c]);
+        for (int c = 0; c < 3; ++c) set_lane(p.albedo[c], i, s.albedo[3 * t.colour + c]);
     }
     const T side = copysign_(all<T>(1.0f), T{} - dot(p.normal, d));
     p.normal = {p.normal.x * side, p.normal.y * side, p.normal.z * side};
@@ -279,6 +277,18 @@ PILEUS_FN SolidPlace<T> place_on_solid(const SolidsView& s, const Vec<T>& o, con
     const T lift = far * 0x1p-19f;
     p.at = {o.x + d.x * distance + p.normal.x * lift, o.y + d.y * distance + p.normal.y * lift,
             o.z + d.z * distance + p.normal.z * lift};
+    if (!Smooth || s.normals == nullptr) return p;
+    for (int i = 0; i < width_of<T>; ++i) {
+        const std::int32_t number = lane(hit.triangle, i);
+        if (number < 0 || s.triangles[number].smooth == 0) continue;
+        const float way = lane(distance, i);
+        const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
+        const float at[3] = {lane(o.x, i) + along[0] * way, lane(o.y, i) + along[1] * way,
+                             lane(o.z, i) + along[2] * way};
+        float n[3] = {lane(p.normal.x, i), lane(p.normal.y, i), lane(p.normal.z, i)};
+        smooth_normal(s, s.triangles[number], at, along, lane(side, i), n);
+        set_lane(p.normal.x, i, n[0]), set_lane(p.normal.y, i, n[1]), set_lane(p.normal.z, i, n[2]);
+    }
     return p;
 }
 

@@ -14,7 +14,8 @@ struct SolidTriangle {
     float corner[3][3];
     float normal[3];  ///< unit
     std::int32_t number, solid;
-    std::int32_t unused[2];
+    std::int32_t colour;  ///< its row of `albedo`
+    std::int32_t smooth;  ///< its row of `normals`, from 1; 0: flat
 };
 
 /// A box and what it holds: triangles [next, next + count), or where count <= 0 two nodes, the next
@@ -30,8 +31,9 @@ struct SolidNode {
 struct SolidsView {
     const SolidNode* nodes;
     const SolidTriangle* triangles;
-    const float* albedo;  ///< [solid][3]
-    std::int32_t count;   ///< triangles
+    const float* albedo;   ///< [colour][3]
+    const float* normals;  ///< [smooth - 1][corner][3], unit; null: all are flat
+    std::int32_t count;    ///< triangles
     /// Metres after which all of it repeats along x and y, at least as wide as it is; 0: it stands
     /// once.
     float period[2];

@@ -17,12 +17,12 @@ Size nodes_of(const SolidsView& solids) {
     return Size(last) + 1;
 }
 
-/// Solids that triangles name.
-Size solids_of(const SolidsView& solids) {
+/// The highest row of an array that triangles name.
+Size last_row(const SolidsView& solids, std::int32_t SolidTriangle::*row) {
     std::int32_t most = 0;
     for (std::int32_t i = 0; i < solids.count; ++i)
-        if (solids.triangles[i].solid > most) most = solids.triangles[i].solid;
-    return Size(most) + 1;
+        if (solids.triangles[i].*row > most) most = solids.triangles[i].*row;
+    return Size(most);
 }
 
 void add_noise(DeviceArrays& a, NoiseView& noise) {
@@ -72,10 +72,13 @@ void add_solids(DeviceArrays& a, SolidsView& solids) {
         solids = SolidsView{};
         return;
     }
-    const Size nodes = nodes_of(solids), colours = solids_of(solids);
+    const Size nodes = nodes_of(solids);
+    const Size colours = last_row(solids, &SolidTriangle::colour) + 1;
+    const Size smooth = last_row(solids, &SolidTriangle::smooth);
     a.in(solids.nodes, nodes);
     a.in(solids.triangles, Size(solids.count));
     a.in(solids.albedo, 3 * colours);
+    a.in(solids.normals, solids.normals != nullptr ? 9 * smooth : 0);
 }
 
 void add_background(DeviceArrays& a, BackgroundParams& k, BackgroundBuffers& b) {

@@ -272,7 +272,48 @@ TEST_CASE("faults of solids and of the camera's depth") {
     const Row rows[] = {
         {kCamera + solid + "\"a.stl\"\n",
          "s.toml:5:8: solid.0.file: unknown kind of mesh, \"a.stl\", allowed: .obj, .ply, .gltf, "
-         ".glb"},
+         ".glb, .png, .exr, .pfm, .tif, .tiff, .hgt, .raw"},
+        {kCamera + solid + "\"a.png\"\nheight_m = [0, 9]\n",
+         "s.toml:5:8: solid.0.bounds_m: missing, nothing, allowed: [[x, y], [x, y]], metres"},
+        {kCamera + solid + "\"a.png\"\nbounds_m = [[0, 0], [1, 1]]\n",
+         "s.toml:5:8: solid.0.height_m: missing, nothing, allowed: 2 numbers, metres, of black and "
+         "of white"},
+        {kCamera + solid + "\"a.png\"\nbounds_m = [[0, 0], [1, 1]]\nheight_m = [9, 0]\n",
+         "s.toml:7:12: solid.0.height_m: inverted or empty, [9, 0], allowed: 2 numbers, first "
+         "below "
+         "second"},
+        {kCamera + solid + "\"a.png\"\nbounds_m = [[0, 0], [1, 0]]\nheight_m = [0, 9]\n",
+         "s.toml:6:12: solid.0.bounds_m: inverted or empty, [[0, 0], [1, 0]], ..."},
+        {kCamera + solid + "\"a.png\"\nbounds_m = [[0, 0], [1, 1]]\nheight_m = [0, 9]\nscale = 2\n",
+         "s.toml:8:1: solid.0.scale: conflicts with height_m, which gives the heights, 2, allowed: "
+         "left out"},
+        {kCamera + solid + "\"a.tif\"\ny_up = true\n",
+         "s.toml:6:1: solid.0.y_up: conflicts with a map of heights, which lies flat, true, "
+         "allowed: left out"},
+        {kCamera + solid + "\"a.raw\"\nbounds_m = [[0, 0], [1, 1]]\n",
+         "s.toml:5:8: solid.0.raw_size: missing, nothing, allowed: 2 whole numbers, columns and "
+         "rows"},
+        {kCamera + solid + "\"a.hgt\"\nbounds_m = [[0, 0], [1, 1]]\nraw_endian = \"big\"\n",
+         "s.toml:7:1: solid.0.raw_endian: conflicts with a map of heights that is no .raw, "
+         "\"big\", "
+         "allowed: left out"},
+        {kCamera + solid + "\"a.pfm\"\nbounds_m = [[0, 0], [1, 1]]\nheight_m = [0, 1]\n",
+         "s.toml:7:1: solid.0.height_m: conflicts with samples that are heights as they are, "
+         "[0, 1], allowed: left out"},
+        {kCamera + solid + "\"a.ply\"\nevery = 2\n",
+         "s.toml:6:1: solid.0.every: conflicts with a mesh, which is no map of heights, 2, "
+         "allowed: "
+         "left out"},
+        {kCamera + solid + "\"a.ply\"\nalbedo_map = \"a.ppm\"\n",
+         "s.toml:6:14: solid.0.albedo_map: unknown kind of picture, \"a.ppm\", allowed: .exr, "
+         ".png, "
+         ".pfm"},
+        {kCamera + solid + "\"a.ply\"\nalbedo_map = \"a.png\"\nalbedo = 0.5\n",
+         "s.toml:7:1: solid.0.albedo: conflicts with albedo_map, which has the colours, 0.5, "
+         "allowed: left out"},
+        {kCamera + solid + "\"a.ply\"\nalbedo_map_scale = 0.5\n",
+         "s.toml:6:1: solid.0.albedo_map_scale: conflicts with a solid without albedo_map, 0.5, "
+         "allowed: left out"},
         {kCamera + "[[solid]]\nalbedo = 1\n",
          "s.toml:4:1: solid.0.file: missing, nothing, allowed: text"},
         {kCamera + solid + "\"a.ply\"\nalbedo = 1.5\n",

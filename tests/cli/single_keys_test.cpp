@@ -68,6 +68,8 @@ std::vector<std::string> values_with(KeyKind kind, const std::string& n) {
             return {"[[0, 0, 0], " + three(n) + "]", "[" + three(n) + ", [1, 1, 1]]",
                     "[" + three(n) + ", [0, 0, 0]]",
                     "[[1e6, 0, 0], [1000000.000001, 1, " + n + "]]"};
+        case KeyKind::kRectangle:
+            return {"[[0, 0], [" + n + ", " + n + "]]", "[[" + n + ", 0], [1, 1]]"};
         default:
             return {};
     }

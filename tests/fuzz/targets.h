@@ -11,6 +11,7 @@
     ROW(exr)                     \
     ROW(grib)                    \
     ROW(hash_list)               \
+    ROW(heights)                 \
     ROW(les)                     \
     ROW(mesh)                    \
     ROW(netcdf)                  \

@@ -12,6 +12,7 @@
 #include "src/io/images/image_file.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/height_format.h"
 #include "src/scene/rows/mesh_format.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
@@ -73,6 +74,13 @@ TEST_CASE("format rows: an extension means one format, and the documents name it
         CHECK(seen.insert(format.extension).second);
         CHECK(mesh_format_of(std::string("A") + format.extension) == &format);
         CHECK(solids.find(format.extension) != std::string::npos);
+    }
+    // A map of heights is known by where it stands, too, as a solid.
+    for (const HeightFormat& format : height_formats()) {
+        CAPTURE(format.extension);
+        CHECK(height_format_of(std::string("A") + format.extension) == &format);
+        CHECK(mesh_format_of(format.extension) == nullptr);
+        CHECK(solids.find(std::string("`") + format.extension) != std::string::npos);
     }
     for (const KeyRow* row : all_scene_keys())
         if (std::string(row->path) == "medium.N.format")

@@ -5,6 +5,7 @@
 #pragma once
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "src/world/solids/solids.h"
@@ -26,9 +27,15 @@ inline Solids make_solids(const TestMesh& mesh, const SolidSettings& settings = 
     REQUIRE(s.triangles.resize(mesh.corners.size() / 9, "triangles"));
     REQUIRE(s.albedo.resize(3, "colours of solids"));
     for (std::size_t c = 0; c < 3; ++c) s.albedo[c] = 0.5f;
+    Mesh read;
+    REQUIRE(read.corners.resize(mesh.corners.size(), "mesh"));
+    std::copy(mesh.corners.begin(), mesh.corners.end(), read.corners.span().begin());
+    if (settings.smooth == SmoothUse::kYes) {
+        REQUIRE(smooth_mesh(read));
+        REQUIRE(s.normals.resize(mesh.corners.size(), "normals"));
+    }
     std::uint64_t used = 0;
-    const Status placed = place_triangles(settings, "mesh", 0, {0, 0, 0},
-                                          {mesh.corners.data(), mesh.corners.size()}, used, s);
+    const Status placed = place_triangles(settings, "mesh", 0, -1, {0, 0, 0}, read, used, s);
     REQUIRE_MESSAGE(placed, placed.message);
     s.triangles.truncate(std::size_t(used));
     REQUIRE(build_solid_tree(s));

@@ -78,6 +78,7 @@ void add_files(const Scene& scene, std::vector<std::string>& files) {
     }
     add(scene.view_files.sky_map);
     for (const SolidSettings& solid : scene.solids) {
+        add(solid.albedo_map);
         add(solid.file);
         if (file_extension(solid.file) == ".gltf") add_buffers(std::string(files.back()), files);
     }

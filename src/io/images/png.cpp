@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 8-bit PNG in memory; the only file that touches libpng.
+// 8-bit PNG in memory; with png_samples.cpp the only files that touch libpng.
 // in: sRGB bytes, rows from the top -> out: the bytes of a PNG file with an sRGB chunk; and back.
 // PNG specification 11.3.3.5 (sRGB); docs/formats.md
 #include "src/base/reading_limit.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes from files that nobody has checked: triangles, and nothing else of what they hold.
+// Meshes from files that nobody has checked: triangles, and nothing else of what they hold; normals
+// that light may take are our own.
 // in: .obj .ply .gltf .glb -> out: corners in the file's own units and axes.
 // docs/solids.md, "Files".
 #pragma once
@@ -15,6 +16,8 @@ namespace pileus {
 struct Mesh {
     /// [triangle][corner][axis], all finite; in doubles, since places on a map are far from its 0.
     Buffer<double> corners;
+    /// Of light, [triangle][corner][axis], unit or 0; empty: none.
+    Buffer<float> normals;
 
     std::uint64_t triangles() const { return corners.size() / 9; }
 };
@@ -40,6 +43,10 @@ Status decode_ply(const std::string& name, Span<const char> bytes, std::uint64_t
 /// By a library that is loaded for it; `binary`: a .glb.
 Status decode_gltf(const std::string& name, bool binary, Span<const char> bytes,
                    std::uint64_t most_triangles, Mesh& mesh);
+
+/// Normals of light at all corners: the mean of the triangles that share a corner's place, each as
+/// heavy as its area. kLimit: out of memory.
+Status smooth_mesh(Mesh& mesh);
 
 /// kBadInput where there is none, kLimit where there are too many.
 Status check_triangles(const std::string& name, std::uint64_t triangles, std::uint64_t most);

@@ -204,7 +204,8 @@ Status decode(const std::string& path, Span<const char> bytes, std::uint64_t dig
 void add_solids(const Solids& solids, Digest& d) {
     for (const SolidTriangle& t : solids.triangles.span()) {
         for (const auto& corner : t.corner) d.floats({corner, 3});
-        d.u32(std::uint32_t(t.solid));
+        d.u32(std::uint32_t(t.colour));
+        if (t.smooth > 0) d.floats(solids.normals.span().part(9 * std::size_t(t.smooth - 1), 9));
     }
     d.floats(solids.albedo.span());
 }

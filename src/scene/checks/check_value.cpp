@@ -71,6 +71,15 @@ struct ValueCheck {
         return true;
     }
 
+    bool rectangle(const Node& node) const {
+        if (!list(node, 2, [this](const Node& corner) { return numbers(corner, 2); })) return false;
+        for (std::size_t i = 0; i < 2; ++i)
+            if (!(number_of(node.children[0].children[i]) <
+                  number_of(node.children[1].children[i])))
+                return fault(node, "inverted or empty");
+        return true;
+    }
+
     bool text(const Node& node) const {
         if (row.allowed.moments && !node.written.empty()) return true;
         if (!node.is_text()) return fault(node, "wrong type");
@@ -135,6 +144,8 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
             return node.is_array() ? check.numbers(node, 3) : check.number(node);
         case KeyKind::kBounds:
             return check.bounds(node);
+        case KeyKind::kRectangle:
+            return check.rectangle(node);
         case KeyKind::kText:
             return check.text(node);
         case KeyKind::kChoice:

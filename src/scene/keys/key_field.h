@@ -21,6 +21,7 @@ enum class KeyKind {
     kNumber3,
     kColor,        ///< a number, or three for red, green, blue
     kBounds,       ///< two corners of a box
+    kRectangle,    ///< two corners on the map
     kText,         ///< with choices: one of them
     kTexts,        ///< list of texts
     kChoice,       ///< one of the row's texts; the field holds its place among them
@@ -82,6 +83,8 @@ template <>
 inline constexpr KeyKind kKind<Float3> = KeyKind::kColor;
 template <>
 inline constexpr KeyKind kKind<std::array<Double3, 2>> = KeyKind::kBounds;
+template <>
+inline constexpr KeyKind kKind<std::array<std::array<double, 2>, 2>> = KeyKind::kRectangle;
 template <>
 inline constexpr KeyKind kKind<std::string> = KeyKind::kText;
 template <>

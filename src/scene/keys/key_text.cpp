@@ -105,6 +105,8 @@ std::string allowed_text(const KeyRow& row) {
             return "number or [r, g, b]" + range;
         case KeyKind::kBounds:
             return "[[x, y, z], [x, y, z]]" + range + ", first below second";
+        case KeyKind::kRectangle:
+            return "[[x, y], [x, y]]" + range + ", first below second";
         case KeyKind::kText:
         case KeyKind::kChoice:
             return choices == nullptr ? "text" : choices_text(choices);

@@ -12,6 +12,7 @@
 #include "src/scene/media/cloud_settings.h"
 #include "src/scene/media/particle_settings.h"
 #include "src/scene/media/sky_settings.h"
+#include "src/scene/media/solid_settings.h"
 
 namespace pileus {
 
@@ -85,15 +86,6 @@ struct DetailSettings {
 
 /// Lumps of the first octave along a tile.
 constexpr int kDetailLumps = 4;
-
-/// A mesh of triangles that hides, is lit and casts shadows.
-struct SolidSettings {
-    std::string file;  ///< as MediumFile::file
-    Float3 albedo{0.2f, 0.2f, 0.2f};
-    Double3 position_m{}, rotation_deg{};  ///< turned about x, then y, then z
-    double scale = 1;                      ///< metres per unit of the file
-    bool y_up = false;                     ///< the file's y points up; glTF's always does
-};
 
 /// A phase function by its name, and its numbers by the names of their keys (docs/scene.md):
 /// phase.type = "henyey-greenstein", phase.numbers["g"] = 0.85. One left out has its row's default.

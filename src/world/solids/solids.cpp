@@ -2,14 +2,16 @@
 // See solids.h. Meshes: read, turned, placed; solid_tree.cpp sorts them.
 #include "src/world/solids/solids.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/base/number_text.h"
-#include "src/io/meshes/mesh_file.h"
+#include "src/io/heights/height_map.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/height_format.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/solids/camera_depth.h"
 
@@ -51,26 +53,57 @@ std::string file_key(std::size_t solid) { return "solid." + std::to_string(solid
 Status read_all(const Scene& scene, const Context& context, std::vector<Mesh>& meshes) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const std::string path = scene_path(scene.directory, scene.solids[i].file);
-        PILEUS_TRY(at_key(scene, file_key(i), read_mesh(path, context.limits, meshes[i])));
+        PILEUS_TRY(read_solid(scene, context, i, meshes[i]));
         sum += meshes[i].triangles();
         PILEUS_TRY(at_key(scene, file_key(i),
-                          check_limit(context.limits, LimitId::kTriangles, sum, path)));
+                          check_limit(context.limits, LimitId::kTriangles, sum,
+                                      scene_path(scene.directory, scene.solids[i].file))));
     }
+    return Status::ok();
+}
+
+/// Normals of light at a triangle's corners, turned with it; flat where they face its other side.
+void add_normals(const glm::dmat3& turn, const float* from, SolidTriangle& t, Solids& solids) {
+    float* to = &solids.normals[9 * std::size_t(solids.smooth++)];
+    t.smooth = std::int32_t(solids.smooth);
+    for (int i = 0; i < 3; ++i) {
+        const Double3 n = turn * vector_of(from + 3 * i);
+        const bool faces = glm::dot(n, vector_of(t.normal)) > 0;
+        for (int a = 0; a < 3; ++a) to[3 * i + a] = faces ? float(n[a]) : t.normal[a];
+    }
+}
+
+/// Rooms for all triangles, their normals and the colours of those under maps.
+Status make_room(const Scene& scene, const std::vector<Mesh>& meshes, Solids& solids) {
+    std::uint64_t sum = 0, smooth = 0, mapped = 0;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        sum += meshes[i].triangles();
+        if (!meshes[i].normals.empty()) smooth += meshes[i].triangles();
+        if (!scene.solids[i].albedo_map.empty()) mapped += meshes[i].triangles();
+    }
+    PILEUS_TRY(solids.triangles.resize(sum, "triangles"));
+    if (smooth > 0) PILEUS_TRY(solids.normals.resize(9 * smooth, "normals of solids"));
+    if (mapped == 0) return Status::ok();
+    Buffer<float> colours;
+    PILEUS_TRY(colours.resize(3 * (scene.solids.size() + mapped), "colours of solids"));
+    std::copy_n(solids.albedo.data(), 3 * scene.solids.size(), colours.data());
+    solids.albedo.swap(colours);
     return Status::ok();
 }
 
 }  // namespace
 
 Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
-                       const Double3& low_m, Span<const double> corners, std::uint64_t& used,
-                       Solids& solids) {
+                       std::int32_t colours, const Double3& low_m, const Mesh& mesh,
+                       std::uint64_t& used, Solids& solids) {
+    const Span<const double> corners = mesh.corners.span();
     const glm::dmat3 turn = turn_of(settings);
     const Double3 shift = settings.position_m - low_m;
     for (std::size_t at = 0; at + 9 <= corners.size; at += 9) {
         SolidTriangle t{};
         t.number = std::int32_t(used + solids.degenerate);
         t.solid = solid;
+        t.colour = colours < 0 ? solid : colours + std::int32_t(at / 9);
         for (std::size_t i = 0; i < 3; ++i) {
             const Double3 p = vector_of(corners.data + at + 3 * i);
             const Double3 placed = turn * p * settings.scale + shift;
@@ -81,10 +114,12 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
                 t.corner[i][r] = float(placed[r]);
             }
         }
-        if (set_normal(t))
-            solids.triangles[std::size_t(used++)] = t;
-        else
+        if (!set_normal(t)) {
             ++solids.degenerate;
+            continue;
+        }
+        if (!mesh.normals.empty()) add_normals(turn, &mesh.normals[at], t, solids);
+        solids.triangles[std::size_t(used++)] = t;
     }
     return Status::ok();
 }
@@ -96,12 +131,19 @@ Status outline_solids(const Scene& scene, const Context& context, Solids& solids
     for (std::size_t i = 0; i < solids.albedo.size(); ++i)
         solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        solids.maps |= !scene.solids[i].albedo_map.empty();
         InputFile file;
         const std::string path = scene_path(scene.directory, scene.solids[i].file);
         PILEUS_TRY(at_key(scene, file_key(i), open_file(path, file)));
         PILEUS_TRY(at_key(scene, file_key(i),
                           check_limit(context.limits, LimitId::kFile, file.size(), path)));
         solids.file_bytes += file.size();
+        // A face takes at least two bytes of a mesh.
+        std::uint64_t most = file.size() / 2;
+        if (height_format_of(path) != nullptr)
+            PILEUS_TRY(at_key(scene, file_key(i),
+                              bound_heights(path, file.size(), scene.solids[i].heights, most)));
+        solids.bound += std::min(most, context.limits[LimitId::kTriangles]);
     }
     return Status::ok();
 }
@@ -112,15 +154,26 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
     const StageClock clock(context, "solids");
     std::vector<Mesh> meshes(scene.solids.size());
     PILEUS_TRY(read_all(scene, context, meshes));
-    std::uint64_t sum = 0, used = 0;
-    for (const Mesh& mesh : meshes) sum += mesh.triangles();
-    PILEUS_TRY(solids.triangles.resize(sum, "triangles"));
+    PILEUS_TRY(make_room(scene, meshes, solids));
+    std::uint64_t used = 0;
+    std::size_t colours = meshes.size();  // rows of `albedo` that are taken
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const SolidSettings& settings = scene.solids[i];
-        PILEUS_TRY(at_key(
-            scene, file_key(i),
-            place_triangles(settings, scene_path(scene.directory, settings.file), std::int32_t(i),
-                            low_m, meshes[i].corners.span(), used, solids)));
+        const bool mapped = !settings.albedo_map.empty();
+        if (mapped) {
+            const Span<float> rows =
+                solids.albedo.span().part(3 * colours, 3 * std::size_t(meshes[i].triangles()));
+            PILEUS_TRY(
+                at_key(scene, "solid." + std::to_string(i) + ".albedo_map",
+                       colour_triangles(settings, scene_path(scene.directory, settings.albedo_map),
+                                        meshes[i], rows)));
+        }
+        PILEUS_TRY(
+            at_key(scene, file_key(i),
+                   place_triangles(placing_of(settings), scene_path(scene.directory, settings.file),
+                                   std::int32_t(i), mapped ? std::int32_t(colours) : -1, low_m,
+                                   meshes[i], used, solids)));
+        if (mapped) colours += std::size_t(meshes[i].triangles());
         meshes[i] = Mesh();
     }
     solids.triangles.truncate(std::size_t(used));
@@ -166,10 +219,8 @@ void note_surface_light(const Solids& solids, bool nodes, bool mapped, Plan& pla
 
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
                     const CameraDepth& depth, MemoryTable& table) {
-    // A face takes at least two bytes of a file; the tree has less than two nodes a triangle.
-    const std::uint64_t bound = solids.file_bytes / 2 < limits[LimitId::kTriangles]
-                                    ? solids.file_bytes / 2
-                                    : limits[LimitId::kTriangles];
+    // The tree has less than two nodes a triangle.
+    const std::uint64_t bound = std::min(solids.bound, limits[LimitId::kTriangles]);
     const bool known = !solids.triangles.empty();
     const std::uint64_t n = known ? solids.triangles.size() : bound;
     table.add("triangles", Stage::kDensity, Stage::kWrite, bytes_of(n, sizeof(SolidTriangle)));
@@ -178,6 +229,14 @@ void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& soli
     table.add(
         "reading solids", Stage::kDensity, Stage::kDensity,
         bytes_of(kReadingFactor, solids.file_bytes) + bytes_of(n, sizeof(SolidTriangle) + 64));
+    bool smooth = false;
+    for (const SolidSettings& solid : scene.solids) smooth |= is_smooth(solid);
+    if (smooth)
+        table.add("normals of solids", Stage::kDensity, Stage::kWrite,
+                  known ? solids.normals.bytes() : bytes_of(n, 9 * sizeof(float)));
+    if (solids.maps)
+        table.add("colours of solids", Stage::kDensity, Stage::kWrite,
+                  known ? solids.albedo.bytes() : bytes_of(n, 3 * sizeof(float)));
     const std::uint64_t pixels =
         std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
     table.add("camera depth", Stage::kDensity, Stage::kWrite,

@@ -4,6 +4,7 @@
 #pragma once
 #include "kernels_cpu/solids/solids_params.h"
 #include "src/base/buffer.h"
+#include "src/io/meshes/mesh_file.h"
 #include "src/plan/plan.h"
 #include "src/plan/report.h"
 #include "src/run/context.h"
@@ -18,15 +19,22 @@ struct Solids {
     bool meshes = false;  ///< the scene has some; the arrays may not be there yet
     Buffer<SolidNode> nodes;
     Buffer<SolidTriangle> triangles;
-    Buffer<float> albedo;          ///< [solid][3]
+    Buffer<float> albedo;          ///< [colour][3]: of each solid, then of triangles under maps
+    Buffer<float> normals;         ///< [smooth triangle][corner][3]
+    std::uint64_t smooth = 0;      ///< triangles that have such
     std::uint64_t degenerate = 0;  ///< triangles without an area, left out
-    std::uint64_t file_bytes = 0;  ///< of all meshes
+    std::uint64_t file_bytes = 0;  ///< of all files
+    std::uint64_t bound = 0;       ///< triangles that these may hold
+    bool maps = false;             ///< some have a map of their albedo
     float period[2] = {};          ///< metres after which they repeat along x and y; 0: not
 
-    std::uint64_t bytes() const { return nodes.bytes() + triangles.bytes() + albedo.bytes(); }
+    std::uint64_t bytes() const {
+        return nodes.bytes() + triangles.bytes() + albedo.bytes() + normals.bytes();
+    }
     bool empty() const { return triangles.empty(); }
-    /// Whether any colour is no grey.
+    /// Whether any colour is no grey, or may be none.
     bool coloured() const {
+        if (maps) return true;
         for (std::size_t i = 0; i + 2 < albedo.size(); i += 3)
             if (albedo[i] != albedo[i + 1] || albedo[i] != albedo[i + 2]) return true;
         return false;
@@ -35,6 +43,7 @@ struct Solids {
         return {nodes.data(),
                 triangles.data(),
                 albedo.data(),
+                normals.empty() ? nullptr : normals.data(),
                 std::int32_t(triangles.size()),
                 {period[0], period[1]}};
     }
@@ -50,11 +59,27 @@ Status outline_solids(const Scene& scene, const Context& context, Solids& solids
 Status load_solids(const Scene& scene, const Double3& low_m, const Context& context,
                    Solids& solids);
 
-/// Corners of a mesh in metres from `low_m` as triangles of solid number `solid`, those without an
-/// area left out and counted; from triangles[used] on, which there is room for.
+/// Triangles of a mesh in metres from `low_m` as those of solid number `solid`, those without an
+/// area left out and counted; from triangles[used] on, and where the mesh has normals from
+/// normals[9 smooth] on, which there is room for. `colours`: the row of `albedo` of its first
+/// triangle, where each has its own; below 0 all have that of the solid.
 Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
-                       const Double3& low_m, Span<const double> corners, std::uint64_t& used,
-                       Solids& solids);
+                       std::int32_t colours, const Double3& low_m, const Mesh& mesh,
+                       std::uint64_t& used, Solids& solids);
+
+/// Reads the mesh of solid number `solid`, or makes one of its map of heights; with normals where
+/// it is smooth. Errors: those of the readers.
+Status read_solid(const Scene& scene, const Context& context, std::size_t solid, Mesh& mesh);
+
+/// How its corners are placed: maps of heights are in metres and upright already.
+SolidSettings placing_of(const SolidSettings& settings);
+
+bool is_smooth(const SolidSettings& settings);
+
+/// The albedo of each triangle from the solid's map, seen from above: `rows` has room for three
+/// numbers each. kBadInput: not readable, or values outside of [0, 1]; kLimit.
+Status colour_triangles(const SolidSettings& settings, const std::string& path, const Mesh& mesh,
+                        Span<float> rows);
 
 /// Sorts the triangles under a tree of boxes. kLimit: out of memory.
 Status build_solid_tree(Solids& solids);

@@ -95,7 +95,7 @@ bool meet(const SolidsView& solids, const float (&at)[3], const float (&to)[3], 
             m.first[a] = side * t.normal[a];
         }
         m.surface.normal[a] += weight * side * t.normal[a];
-        m.surface.albedo[a] += weight * solids.albedo[3 * t.solid + a];
+        m.surface.albedo[a] += weight * solids.albedo[3 * t.colour + a];
     }
     m.ended += weight;
     return true;
