@@ -19,6 +19,7 @@ constexpr double kRise = 0.28;                // and take so long
 constexpr double kSoft = 0.3, kSoften = 0.3;  // after which they grow soft, and for how long
 constexpr double kAges = 0.4;                 // the cloud as a whole falls apart from here on
 constexpr double kFades = 0.62;               // and its water goes from here on
+constexpr double kRainFrom = 0.25, kRainTo = 0.5, kRainEnds = 0.7, kRainOver = 0.95;
 constexpr double kAnvilFrom = 0.25, kAnvilTo = 0.6;
 constexpr double kLift = 0.8;  // heights that lumps rise in a life
 // Farther within than blending and lumps reach.
@@ -43,6 +44,9 @@ CloudLife cloud_life(const CloudSettings& s) {
     out.water = float(1 - smooth((out.share - kFades) / (1 - kFades)));
     out.anvil = smooth((out.share - kAnvilFrom) / (kAnvilTo - kAnvilFrom));
     out.anvil_sunk = kAnvilSunk * float((1 - out.anvil) * (1 - out.anvil));
+    out.rain = smooth((out.share - kRainFrom) / (kRainTo - kRainFrom)) *
+               (1 - smooth((out.share - kRainEnds) / (kRainOver - kRainEnds)));
+    out.rained_s = (out.share - kRainFrom) * s.lifetime_s;
     return out;
 }
 
