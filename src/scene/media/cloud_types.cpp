@@ -13,6 +13,11 @@ namespace {
 
 using F = CloudForm;
 
+constexpr CloudType lumpy(double lump, CloudType type) {
+    type.lump = lump;
+    return type;
+}
+
 constexpr CloudType raining(CloudType type) {
     type.rains = true;
     return type;
@@ -30,8 +35,8 @@ constexpr CloudType kTypes[] = {
              0, 0, 0, 0, 0, 2700}),
     raining({"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.3, 0.15, 0, 0.4, 0.3, 0.9,
              0, 0, 0.1, 12, 5400}),
-    {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15, 0, 0, 0.25,
-     0, 0, 1500},
+    lumpy(0.24, {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15,
+                 0, 0, 0.25, 0, 0, 1500}),
     {"stratocumulus", F::kClosed, 330, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1100, 0.85, 0, 0},
     {"stratocumulus-open", F::kOpen, 450, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 4500, 0.45, 0, 0},
     {"altocumulus", F::kClosed, 170, 0, 3500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 420, 0.6, 0.03, 8},

@@ -5,6 +5,7 @@
 // ch. 7.
 #include <algorithm>
 
+#include "src/scene/media/cloud_types.h"
 #include "src/world/density/cloud.h"
 #include "src/world/density/draws.h"
 
@@ -14,6 +15,8 @@ namespace {
 struct Tower {
     float x, y, height, radius, vigour;
 };
+
+constexpr double kLumpRise = 0.63;  // of lumps over the surface, in their width
 
 float mix(float a, float b, float t) { return a + (b - a) * t; }
 
@@ -218,7 +221,9 @@ void measure(const CloudSettings& s, CloudHeap& heap) {
         high.x = std::max(high.x, x + r + std::max(0.0, lee * double(a.wind_x)));
         high.y = std::max(high.y, y + r + std::max(0.0, lee * double(a.wind_y)));
     }
-    heap.extent = {low - Double3{side, side, 0}, high + Double3{side, side, 0.1}};
+    // Lumps of 0.16 rise by 0.1 at most.
+    const double over = 0.1 + kLumpRise * std::max(0.0, cloud_type(s.type).lump - 0.16);
+    heap.extent = {low - Double3{side, side, 0}, high + Double3{side, side, over}};
 }
 
 }  // namespace

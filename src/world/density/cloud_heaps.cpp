@@ -56,7 +56,7 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     k.plan_per_m = float(1 / (0.7 * cloud.radius_m));
     for (std::size_t i = 0; i < heap.count; ++i) k.join = std::max(k.join, balls[i].join);
     k.vigour_reach = 0.03f * h;
-    k.lump = (place.cloud.anvil > 0 ? 0.11f : 0.16f) * h;
+    k.lump = (place.cloud.anvil > 0 ? 0.11f : float(cloud_type(place.cloud.type).lump)) * h;
     for (float s = k.lump; s > 1.8f * k.voxel && k.octaves < 16; s *= 0.5f) ++k.octaves;
     k.erosion = float(cloud.erosion);
     const CloudLife life = cloud_life(place.cloud);

@@ -8,6 +8,7 @@
 
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/scene/media/cloud_types.h"
 #include "src/world/density/cloud.h"
 
 namespace pileus {
@@ -70,7 +71,7 @@ void rise_turrets(const CloudSettings& s, const std::uint8_t* turret, const Clou
         return;
     }
     // How far each has risen, and how fresh it is.
-    const float cell = s.anvil > 0 ? 0.11f : 0.16f;
+    const float cell = s.anvil > 0 ? 0.11f : float(cloud_type(s.type).lump);
     float grown[kMaxTurrets], fresh[kMaxTurrets], outside[kMaxTurrets];
     for (std::size_t i = 0; i < turrets; ++i) {
         const std::uint32_t key = make_key(std::uint64_t(s.seed), kCloudLifeStream, i).k0;
