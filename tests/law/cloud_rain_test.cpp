@@ -126,6 +126,8 @@ TEST_CASE("rain: corners are sound clouds") {
              {storm + ", rain = 1", "bounds_m = [[0, 0, 2000], [30000, 30000, 14000]]\n"},
              {storm + ", rain = 1", "bounds_m = [[0, 0, 0], [30000, 30000, 14000]]\n"},
              {storm + ", rain = 1, height_m = 1, shelf = 1", ""},
+             {"type = \"cumulus-congestus\", rain = 1, base_m = 9000, shear = 10", ""},
+             {storm + ", rain = 1, height_m = 1, lifetime_s = 1e7, age_s = 5e6", ""},
              {storm + ", rain = 1, tall = 40, turrets = 40", ""},
              {storm + ", rain = 1, age_s = 1e6", ""},
              {storm + ", rain = 1, age_s = -5", ""},

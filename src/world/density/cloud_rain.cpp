@@ -25,6 +25,22 @@ constexpr double kRainFalls = 6;      // m/s
 constexpr double kMostLean = 0.5;     // of streaks, over the height fallen
 constexpr double kLeastDepth = 0.02;  // of a shaft, over the cloud's height
 
+/// Share of a lean that keeps shafts within the box.
+double lean_that_fits(const CloudPlace& place, const CloudRainParams& k) {
+    double share = 1;
+    for (std::int32_t i = 0; i < k.count; ++i)
+        for (int a = 0; a < 2; ++a) {
+            // Streaks trail against the lean.
+            const double moved = -double(a == 0 ? k.lean_x : k.lean_y) * double(k.depth);
+            const double at = place.foot_m[a] + double(a == 0 ? k.shafts[i].x : k.shafts[i].y);
+            const double r = double(k.shafts[i].r);
+            const double room =
+                moved > 0 ? place.bounds_m[1][a] - r - at : at - r - place.bounds_m[0][a];
+            if (moved != 0) share = std::min(share, room / std::max(moved, -moved));
+        }
+    return std::max(share, 0.0);
+}
+
 CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
                             const std::array<int, 3>& size) {
     const CloudSettings& cloud = place.cloud;
@@ -48,7 +64,8 @@ CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
     const double of_one =
         type.extinction_per_m > 0 ? type.extinction_per_m : cloud_extinction_per_m(place.full_m);
     k.full = float(kRainExtinction * power_of(kFullRain, kRainPower) / of_one);
-    k.fallen = float(kRainFalls * life.rained_s);
+    // In the range of the noise, whatever the lifetime.
+    k.fallen = float(std::min(kRainFalls * life.rained_s, 1e5 * double(k.depth)));
     k.seed = make_key(std::uint64_t(cloud.seed), kCloudRainStream, 0).k0;
     double width = 0;
     if (type.form == CloudForm::kHeap) {
@@ -65,6 +82,8 @@ CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
         const WindWay wind = wind_at(cloud, 0);
         const double lean = std::min(cloud.shear, kMostLean);
         k.lean_x = float(lean) * wind.x, k.lean_y = float(lean) * wind.y;
+        const float share = float(lean_that_fits(place, k));
+        k.lean_x *= share, k.lean_y *= share;
     } else {
         width = 0.5 * cloud.cell_m;
         k.lean_x = 0.3f;
