@@ -5,5 +5,6 @@
 #include "kernels_cpu/procedural/cloud_heap.h"
 #include "kernels_cpu/procedural/cloud_layer.h"
 #include "kernels_cpu/procedural/cloud_lens.h"
+#include "kernels_cpu/procedural/cloud_rain.h"
 #define PILEUS_GROUP_Detail 1
 #include "kernels_cpu/isa/kernel_group.h"

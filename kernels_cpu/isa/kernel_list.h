@@ -92,6 +92,8 @@ PILEUS_RANGE(fill_cloud,           CloudParams,         CloudBuffers,          D
 PILEUS_RANGE(fill_cloud_layer,     CloudLayerParams,    CloudLayerBuffers,     Detail,       Host)
 // Rows along x of a lens: size[1] size[2] of them.
 PILEUS_RANGE(fill_cloud_lens,      CloudLensParams,     CloudLensBuffers,      Detail,       Host)
+// Rows along x of the rain below a cloud: size[1] layers of them.
+PILEUS_RANGE(fill_cloud_rain,      CloudRainParams,     CloudRainBuffers,      Detail,       Host)
 
 // Particles
 PILEUS_RANGE(particle_depths,      ParticleDepthParams, ParticleDepthBuffers,  Particles,    Device)

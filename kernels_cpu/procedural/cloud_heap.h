@@ -7,6 +7,7 @@
 #pragma once
 #include "kernels_cpu/procedural/balls.h"
 #include "kernels_cpu/procedural/cloud_anvil.h"
+#include "kernels_cpu/procedural/cloud_base.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -296,6 +297,7 @@ PILEUS_FN void fill_heap_part(const CloudParams& k, const CloudPart& part,
     for (int f = 0; f < kNodeFields; ++f) field[f] = between_nodes(nodes.value[f], n);
     const bool iced = k.anvil_radius > 0.0f;
     const float width = 0.5f * (iced ? max_(k.soft, kAnvilEdge * k.height) : k.soft);
+    const float hangs = -kShelfMost * k.shelf;
     for (int g = 0; g < 64; g += W) {
         const I<W> i = iota<I<W>>() + g;
         const T ix = to_float(i & 3), iy = to_float((i >> 2) & 3), iz = to_float(i >> 4);
@@ -303,8 +305,8 @@ PILEUS_FN void fill_heap_part(const CloudParams& k, const CloudPart& part,
         const Vec<T> p{k.corner[0] + (ix + float(part.begin[0])) * k.cell[0],
                        k.corner[1] + (iy + float(part.begin[1])) * k.cell[1],
                        k.corner[2] + (iz + float(part.begin[2])) * k.cell[2]};
-        const T level = p.z + at_share(field[kNodeWave], x, y, z);
-        if (!any(level > 0.0f)) continue;
+        T level = p.z + at_share(field[kNodeWave], x, y, z);
+        if (!any(level > hangs)) continue;
         CloudSurface<T> s;
         s.at = {p.x + at_share(field[kNodeBendX], x, y, z),
                 p.y + at_share(field[kNodeBendY], x, y, z),
@@ -316,12 +318,14 @@ PILEUS_FN void fill_heap_part(const CloudParams& k, const CloudPart& part,
         AnvilShare<T> share{};
         if (iced) share = join_anvil(k, s.at, s, act);
         const T core = s.distance;
+        if (k.shelf > 0.0f && any(level < kShelfReach * k.shelf))
+            level = level + shelf_drop(k, p, level, core);
         s.at.z = s.at.z - k.lift;
         add_octaves(s, k.lump, k.octaves, act, k.erosion, 0.16f * k.age, width, k.seed);
         if (!any(s.distance < width)) continue;
         T value = heap_density(k, level, core, s.distance, act, at_share(field[kNodeDry], x, y, z),
                                at_share(field[kNodeTaken], x, y, z));
-        if (iced) value = value + share.ice * (anvil_density(k, s.distance, share.rim) - value);
+        if (iced) value = value + share.ice * (anvil_density(k, s.distance, share) - value);
         value = value * k.water;
         for (int l = 0; l < W; ++l) {
             const int c = g + l;

@@ -3,6 +3,7 @@
 // in: a grid, a layer -> out: a map of rising air, densities in [0, 1], the same bits at every
 // width. docs/generators.md, "Layers"; Wood 2012, "Stratocumulus clouds"; Heymsfield 1975.
 #pragma once
+#include "kernels_cpu/core/math.h"
 #include "kernels_cpu/procedural/cloud_heap.h"
 
 namespace pileus {
@@ -131,7 +132,14 @@ PILEUS_FN T streak_density(const CloudLayerParams& k, T x, T y, T z) {
     const float h = k.height;
     const T fallen = h - z, share = fallen * (1.0f / h);
     const T back = k.shear * fallen * (0.12f + 0.5f * share);
-    const T from = x + back;
+    T from = x + back;
+    if (k.turn != 0.0f) {
+        // The wind below blows along another way.
+        const auto half =
+            sincos_turns((k.turn * max_(min_(share, all<T>(1.0f)), T{}) + 1.0f) * 0.5f);
+        from = x + back * (half.cosine * half.cosine - half.sine * half.sine);
+        y = y + back * (2.0f * half.cosine * half.sine);
+    }
     const T bands = rising_air<T>(k, from, y);
     int count = 1;
     for (float size = k.length * 0.15f; size > 1.5f * k.cell[1] && count < 7; size *= 0.5f) ++count;

@@ -50,6 +50,10 @@ struct CloudParams {
     float anvil_sunk;        ///< how far its surface lies within, while it comes
     float anvil_x, anvil_y;  ///< its middle
     float wind_x, wind_y;    ///< unit vector
+    float mamma;             ///< metres that pouches hang down; 0: none
+    float shelf;             ///< metres that the base's lip hangs down; 0: flat
+    float shelf_x, shelf_y;  ///< unit vector to the lip
+    float foot;              ///< half the width of the heap's foot
 };
 
 struct CloudBuffers {
@@ -57,6 +61,39 @@ struct CloudBuffers {
     std::int32_t* scratch;  ///< of one thread: kCloudScratch numbers
 };
 constexpr std::int32_t kCloudScratch = 2 * kMaxCloudBalls;
+
+/// Rain that falls out of a part of a base.
+struct RainShaft {
+    float x, y, r;
+};
+constexpr int kMaxRainShafts = 8;
+
+struct CloudRainParams {
+    RainShaft shafts[kMaxRainShafts];
+    std::int32_t count;  ///< 0: patches of rain under all of a layer
+    std::int32_t size[3];
+    std::int32_t layers;  ///< of cells to fill, from the lowest on
+    float cell[3];
+    float corner[3];  ///< centre of cell 0
+    std::uint32_t seed;
+    float strength;           ///< root of the extinction at the base over that of 50 mm/h
+    float lost_per_m;         ///< how much of that root a metre of dry air takes
+    float full;               ///< density of rain of 50 mm/h
+    float depth;              ///< from the base to the ground
+    float lean_x, lean_y;     ///< how far streaks trail over how far they fell
+    float plan, plan_per_m;   ///< bends of the outline of the heap above
+    std::uint32_t plan_seed;  ///< of these
+    float fallen;             ///< metres that streaks have fallen
+    float top;                ///< height over the base at which rain has faded into the cloud
+    // Of the three octaves of streaks: 1 over their width and length, cells after which they
+    // repeat.
+    float per_x[3], per_y[3], per_z[3];
+    std::int32_t period_x[3], period_y[3];
+};
+
+struct CloudRainBuffers {
+    float* density;  ///< [z][y][x]; what is there already stays where it is more
+};
 
 constexpr int kCloudBlock = 8;  // cells along a block's edge
 
@@ -85,6 +122,7 @@ struct CloudLayerParams {
     float erosion, act;
     float edge;      ///< width of the edge
     float shear;     ///< drift over height fallen
+    float turn;      ///< that the wind veers over the height, in turns
     float per_full;  ///< 1 over the height at which the density is 1; 0: all of it
 };
 

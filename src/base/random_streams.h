@@ -30,6 +30,7 @@ namespace pileus {
     ROW(kCloudLumpStream, 0x6c756d70, "lumps and bends of a procedural cloud")               \
     ROW(kCloudFieldStream, 0x6669656c, "places and sizes of a field of procedural clouds")   \
     ROW(kCloudLifeStream, 0x6c696665, "times of turrets and clouds of a procedural cloud")   \
+    ROW(kCloudRainStream, 0x7261696e, "streaks of rain below a procedural cloud")            \
     ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")                         \
     ROW(kParticleCumulusStream, 0x70636d75, "particles of a procedural cumulus")             \
     ROW(kReplicaStream, 0x7265706c, "particles that stand for one of a file")                \

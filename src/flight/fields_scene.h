@@ -76,7 +76,8 @@ template <class A>
 void fields(A& a, CloudSettings& v) {
     all(a, v.type, v.seed, v.height_m, v.radius_m, v.base_m, v.position_m, v.turrets, v.tall,
         v.slimness, v.dilution, v.entrainment_per_km, v.age, v.age_s, v.lifetime_s, v.outline,
-        v.shear, v.wind_deg, v.anvil, v.plates, v.cell_m, v.cover, v.erosion);
+        v.shear, v.wind_deg, v.turn_deg, v.anvil, v.plates, v.cell_m, v.cover, v.erosion, v.mamma,
+        v.shelf, v.rain);
 }
 template <class A>
 void fields(A& a, MediumSettings& v) {

@@ -79,7 +79,7 @@ const CloudRange kRanges[] = {
      {kFootWater, kLowerWater, kUpperWater, kCrownWater}},
     {"cumulonimbus", kSideRange, {}, kHeapSlopes, kThickDepth, {}, {}},
     {"cumulus-field",
-     {},
+     kSideRange,
      kPlanRange,
      kHeapSlopes,
      {1, 23},

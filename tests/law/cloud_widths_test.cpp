@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernels_cpu/procedural/cloud_layer.h"
+#include "kernels_cpu/procedural/cloud_rain.h"
 #include "src/base/digest.h"
 #include "src/scene/keys/key_row.h"
 #include "src/scene/media/cloud_types.h"
@@ -24,6 +25,7 @@ std::string digest_of(const MediumSettings& medium) {
     KernelTable table = *kernel_table(nullptr);
     table.fill_cloud = fill_cloud<W>;
     table.fill_cloud_layer = fill_cloud_layer<W>;
+    table.fill_cloud_rain = fill_cloud_rain<W>;
     Volume volume;
     REQUIRE(make_cloud(medium, {{29, 27, 18}, table, 1}, volume));
     Digest digest;
@@ -37,12 +39,15 @@ TEST_CASE("clouds: 1, 4, 8 and 16 lanes give the same bits for every type") {
     for (const std::string_view name : split_list(kCloudTypes)) {
         const std::string type(name);
         CAPTURE(type);
+        std::string more = cloud_type(type).rains ? ", rain = 0.7" : "";
+        if (cloud_type(type).anvil > 0) more += ", mamma = 1, shelf = 1, turn_deg = 50";
+        if (cloud_type(type).form == CloudForm::kStreaks) more += ", turn_deg = -50";
         Scene scene;
         REQUIRE(
             read_scene_text("[camera]\nposition_m = [0, -9000, 5000]\ntarget_m = [0, 0, "
                             "5000]\n[[medium]]\ndensity = \"procedural:cloud\"\ncloud = { type "
                             "= \"" +
-                                type + "\", seed = 11 }\n",
+                                type + "\", seed = 11" + more + " }\n",
                             "s.toml", "", {}, scene));
         const MediumSettings& medium = scene.media[0];
         const std::string one = digest_of<1>(medium);

@@ -134,6 +134,9 @@ constexpr KeyRow kCloudRows[] = {
      "drift of the tallest top with the wind over its height", kNoNote},
     {"medium.N.cloud.wind_deg", cloud<&C::wind_deg>, from_to(-360, 360), "deg",
      "direction of that drift, from east towards north"},
+    {"medium.N.cloud.turn_deg", cloud<&C::turn_deg>, from_to(-360, 360), "deg",
+     "that the wind veers (turns clockwise seen from above) from the base to the top, which drifts "
+     "along `wind_deg`; of cirrus from the foot of a streak to its head"},
     {"medium.N.cloud.anvil", cloud<&C::anvil>, from_to(0, 3), "",
      "radius of an anvil of ice over `height_m`; 0: none", kNoNote},
     {"medium.N.cloud.plates", cloud<&C::plates>, from_to(1, 12), "",
@@ -145,6 +148,14 @@ constexpr KeyRow kCloudRows[] = {
     {"medium.N.cloud.erosion", cloud<&C::erosion>, from_to(0, 0.5), "",
      "share of its size that each octave of lumps takes off the surface: 0.2 is crisp, 0.13 keeps "
      "the mean"},
+    {"medium.N.cloud.mamma", cloud<&C::mamma>, from_to(0, 1), "",
+     "pouches that hang under an anvil; 1: as deep as half their width"},
+    {"medium.N.cloud.shelf", cloud<&C::shelf>, from_to(0, 1), "",
+     "a lip under the base at the side that the wind blows to, and shreds: share of the height's "
+     "4 % by which it hangs down; 0: a flat base"},
+    {"medium.N.cloud.rain", cloud<&C::rain>, from_to(0, 1), "",
+     "rain under congestus, cumulonimbus and nimbostratus as a share of 50 mm/h; little ends in "
+     "the air. The box left out reaches down to the ground, or to z = 0"},
 };
 
 }  // namespace

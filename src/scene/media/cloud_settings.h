@@ -31,13 +31,18 @@ struct CloudSettings {
     double outline = kOfType;             ///< bends of the outline in plan over radius_m
     double shear = kOfType;               ///< drift of the top over its height
     double wind_deg = 0;                  ///< where the top drifts to, from east towards north
+    double turn_deg = 0;                  ///< that the wind veers from the base to the top
     double anvil = kOfType;               ///< radius of an anvil over the height; 0: none
     std::int64_t plates = kCountOfType;   ///< stacked lenses
     double cell_m = kOfType;              ///< width of a layer's cells
     double cover = kOfType;               ///< share of the ground under cloud, of fields and layers
     double erosion = 0.2;                 ///< share of its cell that an octave takes off
+    double mamma = 0;                     ///< pouches under an anvil: share of their full depth
+    double shelf = 0;                     ///< lip and shreds under the base: share of the full
+    double rain = 0;                      ///< below the base, share of 50 mm/h; 0: none
 
     bool lives() const { return age_s != kOfType; }
+    bool rains() const { return rain > 0; }
     bool has_place() const { return position_m[0] != kOfType; }
 };
 

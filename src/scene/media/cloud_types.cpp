@@ -12,6 +12,17 @@ namespace pileus {
 namespace {
 
 using F = CloudForm;
+
+constexpr CloudType lumpy(double lump, CloudType type) {
+    type.lump = lump;
+    return type;
+}
+
+constexpr CloudType raining(CloudType type) {
+    type.rains = true;
+    return type;
+}
+
 // name, form, height, radius, base, turrets, tall, slimness, dilution, entrainment, age, outline,
 // shear, anvil, cell, cover, extinction, effective radius, lifetime (Cotton, Bryan, van den Heever
 // 2011, ch. 7, 8)
@@ -20,19 +31,20 @@ constexpr CloudType kTypes[] = {
      0, 900},
     {"cumulus-mediocris", F::kHeap, 650, 600, 900, 16, 5, 0.26, 0.25, 1.5, 0.1, 0.45, 0.18, 0, 0, 0,
      0, 0, 1500},
-    {"cumulus-congestus", F::kHeap, 1300, 700, 900, 12, 4, 0.24, 0.25, 1.2, 0, 0.35, 0.12, 0, 0, 0,
-     0, 0, 2700},
-    {"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.3, 0.15, 0, 0.4, 0.3, 0.9, 0, 0,
-     0.1, 12, 5400},
-    {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15, 0, 0, 0.25,
-     0, 0, 1500},
+    raining({"cumulus-congestus", F::kHeap, 1300, 700, 900, 12, 4, 0.24, 0.25, 1.2, 0, 0.35, 0.12,
+             0, 0, 0, 0, 0, 2700}),
+    raining({"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.3, 0.15, 0, 0.4, 0.3, 0.9,
+             0, 0, 0.1, 12, 5400}),
+    lumpy(0.24, {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15,
+                 0, 0, 0.25, 0, 0, 1500}),
     {"stratocumulus", F::kClosed, 330, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1100, 0.85, 0, 0},
     {"stratocumulus-open", F::kOpen, 450, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 4500, 0.45, 0, 0},
     {"altocumulus", F::kClosed, 170, 0, 3500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 420, 0.6, 0.03, 8},
     {"altocumulus-lenticularis", F::kLens, 1100, 3500, 4200, 5, 1, 1, 0, 0, 0, 0.15, 0.4, 0, 0, 0,
      0.03, 6},
     {"stratus", F::kSheet, 300, 0, 300, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1600, 0.97, 0.05, 7.33},
-    {"nimbostratus", F::kSheet, 2800, 0, 500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 6000, 1, 0.04, 10},
+    raining(
+        {"nimbostratus", F::kSheet, 2800, 0, 500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 6000, 1, 0.04, 10}),
     {"fog", F::kGround, 90, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 700, 0.95, 0.02, 10.7},
     {"cirrus", F::kStreaks, 1500, 0, 8000, 1, 1, 1, 0, 0, 0, 0, 2.8, 0, 900, 0.4, 0.004, -1},
     {"cirrus-uncinus", F::kStreaks, 1800, 0, 8000, 1, 1, 1, 0, 0, 0, 0, 4, 0, 500, 0.15, 0.006, -1},

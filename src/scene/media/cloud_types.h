@@ -35,6 +35,8 @@ struct CloudType {
     double extinction_per_m;     ///< 0: that of adiabatic water
     double effective_radius_um;  ///< 0: that of adiabatic water; below: ice
     double lifetime_s = 0;       ///< of heaps, and of a field's largest
+    bool rains = false;          ///< may have rain below
+    double lump = 0.16;          ///< largest lumps' width over the height, without an anvil
 };
 
 /// The type of this name, which must be one of kCloudTypes.

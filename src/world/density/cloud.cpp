@@ -87,10 +87,11 @@ Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume&
     volume.size = with.size;
     volume.knows_bounds = false;
     const CloudForm form = cloud_type(place.cloud.type).form;
-    return form == CloudForm::kHeap    ? make_heap(place, heap, with, volume)
-           : form == CloudForm::kLens  ? make_lens(place, with, volume)
-           : form == CloudForm::kField ? make_field(place, with, volume)
-                                       : make_layer(place, with, volume);
+    PILEUS_TRY(form == CloudForm::kHeap    ? make_heap(place, heap, with, volume)
+               : form == CloudForm::kLens  ? make_lens(place, with, volume)
+               : form == CloudForm::kField ? make_field(place, with, volume)
+                                           : make_layer(place, with, volume));
+    return place.cloud.rains() ? make_rain(place, heap, with, volume) : Status::ok();
 }
 
 extern const DensityRow kCloudDensity;

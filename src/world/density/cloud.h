@@ -23,6 +23,8 @@ struct CloudHeap {
     Buffer<CloudBall> balls;  ///< kMaxCloudBalls reserved
     std::size_t count = 0;
     std::array<Double3, 2> extent{};
+    std::array<RainShaft, kMaxRainShafts> shaft{};  ///< below its tall turrets
+    std::size_t shafts = 0;
 };
 
 /// Grows the balls of resolved settings. kLimit: out of memory.
@@ -35,6 +37,8 @@ struct CloudLife {
     float water = 1;       ///< what is left
     double anvil = 1;      ///< 0: the anvil has not begun to come
     float anvil_sunk = 0;  ///< how far its surface lies within, over the height
+    double rain = 1;       ///< share of the root of its extinction
+    double rained_s = 0;   ///< since rain began
 };
 CloudLife cloud_life(const CloudSettings& settings);
 /// Resolved settings with the age, dilution and anvil of that time.
@@ -55,6 +59,12 @@ struct AnvilPlace {
     float wind_x, wind_y;
 };
 AnvilPlace anvil_place(const CloudSettings& settings);
+/// The direction in which air drifts at a height over the cloud's, of which the top has that of
+/// anvil_place.
+struct WindWay {
+    float x, y;
+};
+WindWay wind_at(const CloudSettings& settings, double height);
 
 /// What a lens takes up, in units of its height: lowest and highest corner.
 std::array<Double3, 2> lens_extent(const CloudSettings& settings);
@@ -98,6 +108,9 @@ Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaki
 Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volume);
 Status make_lens(const CloudPlace& place, const CloudMaking& with, Volume& volume);
 Status make_layer(const CloudPlace& place, const CloudMaking& with, Volume& volume);
+/// Adds the rain below a heap or a layer.
+Status make_rain(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+                 Volume& volume);
 
 /// Cells where the scene leaves them out: cubes, so many along the longest edge of the box, and 24
 /// and more along its height, of a lens 96. Of one heap 256, of a lens 320, with an anvil or of a

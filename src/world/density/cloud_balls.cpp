@@ -5,6 +5,7 @@
 // ch. 7.
 #include <algorithm>
 
+#include "src/scene/media/cloud_types.h"
 #include "src/world/density/cloud.h"
 #include "src/world/density/draws.h"
 
@@ -14,6 +15,8 @@ namespace {
 struct Tower {
     float x, y, height, radius, vigour;
 };
+
+constexpr double kLumpRise = 0.63;  // of lumps over the surface, in their width
 
 float mix(float a, float b, float t) { return a + (b - a) * t; }
 
@@ -30,9 +33,10 @@ public:
           radius_(float(s.radius_m / s.height_m)),
           slimness_(float(s.slimness)),
           turrets_(std::min(std::size_t(s.turrets), kMaxTurrets)),
-          tall_(std::size_t(s.tall)) {
-        const AnvilPlace anvil = anvil_place(s);
-        lean_x_ = float(s.shear) * anvil.wind_x, lean_y_ = float(s.shear) * anvil.wind_y;
+          tall_(std::size_t(s.tall)),
+          settings_(s) {
+        const WindWay top = wind_at(s, 1);
+        lean_x_ = float(s.shear) * top.x, lean_y_ = float(s.shear) * top.y;
     }
 
     void run() {
@@ -44,6 +48,14 @@ public:
         const std::size_t large = heap_.count;
         brood(0, large, {5, 8, 0.38f, 0.62f, 0.55f});
         brood(large, heap_.count, {4, 8, 0.34f, 0.60f, 0.50f});
+    }
+
+    /// After run(): it rains out of the tall turrets.
+    void rain() {
+        heap_.shafts =
+            std::min({turrets_, std::max(tall_, std::size_t(1)), std::size_t(kMaxRainShafts)});
+        for (std::size_t i = 0; i < heap_.shafts; ++i)
+            heap_.shaft[i] = {towers_[i].x, towers_[i].y, 1.25f * towers_[i].radius};
     }
 
     /// After run(): where the balls are at the settings' age.
@@ -112,6 +124,7 @@ private:
             const float r = mix(1.1f * t.radius, head, s) * waist;
             const float stray = i + 1 < steps && i > 0 ? 0.38f * r : 0.12f * r;
             const float z = mix(foot, top, s), drift = z * (0.4f + 0.6f * s);
+            turn(double(z));
             const float x = t.x + lean_x_ * drift + draws_.between(-stray, stray);
             const float y = t.y + lean_y_ * drift + draws_.between(-stray, stray);
             add(x, y, z, r, t.vigour * mix(0.4f, 1.0f, s));
@@ -123,6 +136,13 @@ private:
             const float z = t.radius * draws_.between(0.05f, 0.35f);
             add(t.x + far * turn.cosine, t.y + far * turn.sine, z, r, 0.4f * t.vigour);
         }
+    }
+
+    /// The lean of balls at that height, where the wind turns.
+    void turn(double z) {
+        if (settings_.turn_deg == 0) return;
+        const WindWay way = wind_at(settings_, z);
+        lean_x_ = float(settings_.shear) * way.x, lean_y_ = float(settings_.shear) * way.y;
     }
 
     struct Brood {
@@ -176,6 +196,7 @@ private:
     Draws draws_;
     float radius_, slimness_;
     std::size_t turrets_, tall_;
+    const CloudSettings& settings_;
     float lean_x_ = 0, lean_y_ = 0;
     Tower towers_[kMaxTurrets]{};
     std::uint8_t turret_ = 0, of_ball_[kMaxCloudBalls]{};
@@ -184,7 +205,7 @@ private:
 /// What the balls take up, with what bends, the outline in plan and lumps add.
 void measure(const CloudSettings& s, CloudHeap& heap) {
     const double side = 0.55 * s.outline * s.radius_m / s.height_m + 0.1;
-    Double3 low{0, 0, -0.03}, high{0, 0, 0};
+    Double3 low{0, 0, -0.03 - 0.06 * s.shelf}, high{0, 0, 0};
     for (std::size_t i = 0; i < heap.count; ++i) {
         const CloudBall& b = heap.balls[i];
         const double r = double(b.r);
@@ -200,18 +221,24 @@ void measure(const CloudSettings& s, CloudHeap& heap) {
         high.x = std::max(high.x, x + r + std::max(0.0, lee * double(a.wind_x)));
         high.y = std::max(high.y, y + r + std::max(0.0, lee * double(a.wind_y)));
     }
-    heap.extent = {low - Double3{side, side, 0}, high + Double3{side, side, 0.1}};
+    // Lumps of 0.16 rise by 0.1 at most.
+    const double over = 0.1 + kLumpRise * std::max(0.0, cloud_type(s.type).lump - 0.16);
+    heap.extent = {low - Double3{side, side, 0}, high + Double3{side, side, over}};
 }
 
 }  // namespace
 
-AnvilPlace anvil_place(const CloudSettings& s) {
+WindWay wind_at(const CloudSettings& s, double height) {
     // The cosine and sine of twice the half angle: sincos_turns takes turns in [0, 1].
-    const double turns = s.wind_deg / 360;
+    const double turns = (s.wind_deg + s.turn_deg * (1 - height)) / 360;
     const auto half = sincos_turns(float(turns - double(std::int64_t(turns)) + 1) * 0.5f);
+    return {half.cosine * half.cosine - half.sine * half.sine, 2 * half.cosine * half.sine};
+}
+
+AnvilPlace anvil_place(const CloudSettings& s) {
+    const WindWay wind = wind_at(s, 1);
     AnvilPlace out{};
-    out.wind_x = half.cosine * half.cosine - half.sine * half.sine;
-    out.wind_y = 2 * half.cosine * half.sine;
+    out.wind_x = wind.x, out.wind_y = wind.y;
     out.top = 0.94f, out.depth = 0.15f;
     out.x = float(s.shear) * out.top * out.wind_x, out.y = float(s.shear) * out.top * out.wind_y;
     return out;
@@ -222,6 +249,7 @@ Status grow_cloud(const CloudSettings& settings, CloudHeap& heap) {
     heap.count = 0;
     Growth growth(settings, heap);
     growth.run();
+    growth.rain();
     // The box holds it at any age.
     measure(settings, heap);
     if (settings.lives()) growth.rise(settings);

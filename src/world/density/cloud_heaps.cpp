@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxFieldClouds = 4000;
 constexpr int kFieldTries = 40;
+constexpr double kMammaDepth = 0.06, kShelfDepth = 0.04;  // over the height
 
 CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
                       const std::array<int, 3>& size, Buffer<CloudBall>& balls) {
@@ -55,7 +56,7 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     k.plan_per_m = float(1 / (0.7 * cloud.radius_m));
     for (std::size_t i = 0; i < heap.count; ++i) k.join = std::max(k.join, balls[i].join);
     k.vigour_reach = 0.03f * h;
-    k.lump = (place.cloud.anvil > 0 ? 0.11f : 0.16f) * h;
+    k.lump = (place.cloud.anvil > 0 ? 0.11f : float(cloud_type(place.cloud.type).lump)) * h;
     for (float s = k.lump; s > 1.8f * k.voxel && k.octaves < 16; s *= 0.5f) ++k.octaves;
     k.erosion = float(cloud.erosion);
     const CloudLife life = cloud_life(place.cloud);
@@ -76,6 +77,13 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
         k.anvil_top = anvil.top * h, k.anvil_depth = anvil.depth * h;
         k.anvil_x = anvil.x * h, k.anvil_y = anvil.y * h;
         k.wind_x = anvil.wind_x, k.wind_y = anvil.wind_y;
+        k.mamma = float(kMammaDepth * cloud.mamma) * h;
+    }
+    if (cloud.shelf > 0) {
+        // The lip is where the air near the ground blows to.
+        const WindWay wind = wind_at(cloud, 0);
+        k.shelf = float(kShelfDepth * cloud.shelf) * h, k.foot = float(cloud.radius_m);
+        k.shelf_x = wind.x, k.shelf_y = wind.y;
     }
     k.per_full = float(1 / full);
     return k;

@@ -42,7 +42,7 @@ CloudLayerParams layer_params(const CloudPlace& place, const std::array<int, 3>&
     for (float s = k.lump; s > 1.8f * voxel && k.octaves < 16; s *= 0.5f) ++k.octaves;
     k.erosion = float(cloud.erosion), k.act = sheet ? 0.35f : 0.6f;
     k.edge = std::max((sheet ? 0.25f : 0.08f) * k.height, 1.4f * k.cell[2]);
-    k.shear = float(cloud.shear);
+    k.shear = float(cloud.shear), k.turn = float(cloud.turn_deg / 360);
     const bool adiabatic = cloud_type(cloud.type).extinction_per_m == 0;
     k.per_full = adiabatic ? float(1 / full_height_m(cloud.height_m)) : 0.0f;
     return k;

@@ -8,6 +8,7 @@
 
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/scene/media/cloud_types.h"
 #include "src/world/density/cloud.h"
 
 namespace pileus {
@@ -19,6 +20,7 @@ constexpr double kRise = 0.28;                // and take so long
 constexpr double kSoft = 0.3, kSoften = 0.3;  // after which they grow soft, and for how long
 constexpr double kAges = 0.4;                 // the cloud as a whole falls apart from here on
 constexpr double kFades = 0.62;               // and its water goes from here on
+constexpr double kRainFrom = 0.25, kRainTo = 0.5, kRainEnds = 0.7, kRainOver = 0.95;
 constexpr double kAnvilFrom = 0.25, kAnvilTo = 0.6;
 constexpr double kLift = 0.8;  // heights that lumps rise in a life
 // Farther within than blending and lumps reach.
@@ -43,6 +45,9 @@ CloudLife cloud_life(const CloudSettings& s) {
     out.water = float(1 - smooth((out.share - kFades) / (1 - kFades)));
     out.anvil = smooth((out.share - kAnvilFrom) / (kAnvilTo - kAnvilFrom));
     out.anvil_sunk = kAnvilSunk * float((1 - out.anvil) * (1 - out.anvil));
+    out.rain = smooth((out.share - kRainFrom) / (kRainTo - kRainFrom)) *
+               (1 - smooth((out.share - kRainEnds) / (kRainOver - kRainEnds)));
+    out.rained_s = (out.share - kRainFrom) * s.lifetime_s;
     return out;
 }
 
@@ -66,7 +71,7 @@ void rise_turrets(const CloudSettings& s, const std::uint8_t* turret, const Clou
         return;
     }
     // How far each has risen, and how fresh it is.
-    const float cell = s.anvil > 0 ? 0.11f : 0.16f;
+    const float cell = s.anvil > 0 ? 0.11f : float(cloud_type(s.type).lump);
     float grown[kMaxTurrets], fresh[kMaxTurrets], outside[kMaxTurrets];
     for (std::size_t i = 0; i < turrets; ++i) {
         const std::uint32_t key = make_key(std::uint64_t(s.seed), kCloudLifeStream, i).k0;

@@ -19,7 +19,7 @@ constexpr const char* kHeapKeys[] = {"radius_m", "outline", "wind_deg"};
 /// What lenses do not have either.
 constexpr const char* kTurretKeys[] = {
     "turrets", "tall",  "slimness",   "dilution", "entrainment_per_km",
-    "age",     "age_s", "lifetime_s", "anvil"};
+    "age",     "age_s", "lifetime_s", "anvil",    "shelf"};
 
 // Of layers and fields: how far the box reaches over the base and under it, in heights.
 constexpr double kLayerOver = 1.2, kLayerUnder = 0.08;
@@ -38,9 +38,12 @@ double fitting(double low, double high, double from, double to, double at) {
 void fit_heap(const MediumSettings& medium, const CloudHeap& heap, CloudPlace& place) {
     const auto& box = place.bounds_m;
     const Double3 &low = heap.extent[0], &high = heap.extent[1];
-    const bool at_base = medium.cloud.base_m != kOfType;
-    const double base = medium.cloud.base_m;
-    double most = at_base ? fitting(low.z, high.z, box[0].z, box[1].z, base)
+    // Over its rain it stands on its level, where the box holds that.
+    const double base = place.cloud.base_m;
+    const bool at_base = medium.cloud.base_m != kOfType ||
+                         (place.cloud.rains() && base > box[0].z && base < box[1].z);
+    const double under = place.cloud.rains() ? 0 : low.z;
+    double most = at_base ? fitting(under, high.z, box[0].z, box[1].z, base)
                           : (box[1].z - box[0].z) / (high.z - low.z);
     for (int a = 0; a < 2; ++a)
         most = std::min(most, medium.cloud.has_place()
@@ -75,6 +78,12 @@ void fit_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) 
     place.foot_m = {0.5 * (box[0].x + box[1].x), 0.5 * (box[0].y + box[1].y), cloud.base_m};
 }
 
+/// The floor of a box that the scene does not give: rain falls to the ground, of which is not known
+/// here where it lies.
+double floor_of(const CloudSettings& cloud, double lowest) {
+    return cloud.rains() ? std::min(lowest, 0.0) : lowest;
+}
+
 /// The box of a layer or a field that the scene gives none.
 void box_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) {
     const CloudSettings& cloud = place.cloud;
@@ -85,7 +94,7 @@ void box_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) 
                         : form == CloudForm::kStreaks ? 10 * cloud.cell_m
                                                       : 3 * cloud.cell_m;
     const double under = form == CloudForm::kGround ? 0 : kLayerUnder * cloud.height_m;
-    place.bounds_m = {Double3{x - half, y - half, cloud.base_m - under},
+    place.bounds_m = {Double3{x - half, y - half, floor_of(cloud, cloud.base_m - under)},
                       Double3{x + half, y + half, cloud.base_m + kLayerOver * cloud.height_m}};
 }
 
@@ -153,6 +162,13 @@ void check_cloud(SceneCheck& check, std::size_t index) {
     if (type.cell_m == 0 && !lens && check.valid_key(path + "cloud.lifetime_s") != nullptr &&
         check.lacks(path + "cloud.age_s"))
         fault("lifetime_s", "nothing lives without age_s, allowed: with age_s, or left out");
+    if (!type.rains && check.valid_key(path + "cloud.rain") != nullptr)
+        fault("rain", "for congestus, cumulonimbus and nimbostratus only, allowed: left out");
+    if (!(place.cloud.anvil > 0) && check.valid_key(path + "cloud.mamma") != nullptr)
+        fault("mamma", "for clouds with an anvil only, allowed: left out");
+    if (((type.cell_m > 0 && !streaks) || lens) &&
+        check.valid_key(path + "cloud.turn_deg") != nullptr)
+        fault("turn_deg", "for heaps, fields and cirrus only, allowed: left out");
     if (!lens && check.valid_key(path + "cloud.plates") != nullptr)
         fault("plates", "for lenticularis only, allowed: left out");
     if ((lens || streaks) && check.valid_key(path + "cloud.erosion") != nullptr)
@@ -165,6 +181,10 @@ void check_cloud(SceneCheck& check, std::size_t index) {
         medium.box.has_bounds = true;
         medium.box.bounds_m = place.bounds_m;
         const Ground& ground = check.scene.ground;
+        // Rain falls to the ground.
+        double& floor = medium.box.bounds_m[0].z;
+        if (medium.cloud.rains() && ground.present && ground.altitude_m < place.foot_m.z)
+            floor = ground.altitude_m;
         if (is_below_ground(ground, medium.box.bounds_m[0].z, 0))
             fault("base_m", below_ground_text(ground, medium.box.bounds_m[0].z, 0));
     }
@@ -208,6 +228,7 @@ Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& pl
     place.foot_m = {placed ? medium.cloud.position_m[0] : 0.0,
                     placed ? medium.cloud.position_m[1] : 0.0, place.cloud.base_m};
     place.bounds_m = {place.foot_m + heap.extent[0] * h, place.foot_m + heap.extent[1] * h};
+    place.bounds_m[0].z = floor_of(place.cloud, place.bounds_m[0].z);
     return Status::ok();
 }
 
