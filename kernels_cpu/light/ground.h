@@ -138,7 +138,7 @@ PILEUS_FN void painted_ground(const GroundPaint& p, const Vec<T>& at, const Vec<
     if (p.sea == nullptr) return;
     const SeaView& sea = *p.sea;
     const Vec<T> from{T{} - along.x, T{} - along.y, rise};
-    const SeaPlace<T> place = sea_place(sea, p.waves, at, metres);
+    const SeaPlace<T> place = sea_place(sea, p.waves, at, metres, rise);
     const SeaSight<T> sight = sea_sight(sea, place, from);
     T mirrored[3], density, reflects;
     sea_mirrors(p, place, sight, from, mirrored, reflects);

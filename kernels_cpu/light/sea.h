@@ -45,15 +45,17 @@ struct SeaPlace {
     T x, y, slope;
 };
 
-/// `metres`: how wide the place is; shorter waves are not shown.
+/// `metres`: how wide the place is; shorter waves are not shown, and none along the surface, `rise`
+/// being the cosine of the view, where waves would hide one another.
 template <class T>
 PILEUS_FN SeaPlace<T> sea_place(const SeaView& sea, const SeaWaves& waves, const Vec<T>& at,
-                                T metres) {
+                                T metres, T rise) {
     SeaPlace<T> out{};
     T square = all<T>(sea.fine * sea.fine);
+    const T steep = min_(max_(rise * (0.5f / sea.slope) - 0.5f, T{}), all<T>(1.0f));
     for (int i = 0; i < kSeaWaves; ++i) {
         const T turns = at.x * waves.x[i] + at.y * waves.y[i] + waves.phase[i];
-        const T shown = max_(1.0f - metres * (2.0f * waves.per_length[i]), T{});
+        const T shown = steep * max_(1.0f - metres * (2.0f * waves.per_length[i]), T{});
         const T height = sincos_turns(turns - to_float(floor_int(turns))).cosine * shown;
         out.x = out.x + height * waves.lean_x[i];
         out.y = out.y + height * waves.lean_y[i];

@@ -54,7 +54,7 @@ PILEUS_FN void reflect_at_sea(PathLanes<W, NC, K>& s, const PathParams& k, M<W> 
     constexpr float kInvPi = 4.0f * kInvFourPi;
     const SeaView& sea = *k.paint.sea;
     const Vec<T> from{T{} - s.d.x, T{} - s.d.y, max_(T{} - s.d.z, T{})};
-    const SeaPlace<T> place = sea_place(sea, k.paint.waves, at, T{});
+    const SeaPlace<T> place = sea_place(sea, k.paint.waves, at, T{}, from.z);
     const SeaSight<T> sight = sea_sight(sea, place, from);
     const SeaSlope<T> slope = draw_facet(s, k, m, sight);
     T cosine, density;
