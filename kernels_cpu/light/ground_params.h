@@ -29,7 +29,7 @@ constexpr int kSeaCosines = 64;
 constexpr float kSeaSeen = 4;
 /// Slopes at which a sea is looked at along a view and across it.
 constexpr int kSeaAlong = 7, kSeaAcross = 3;
-constexpr int kSeaWaves = 16;
+constexpr int kSeaWaves = 20;
 
 /// A rough sea: Gaussian slopes, alike in all directions (Cox and Munk 1954).
 struct SeaView {
@@ -48,6 +48,9 @@ struct SeaWaves {
     float x[kSeaWaves], y[kSeaWaves], phase[kSeaWaves];  ///< turns per metre; turns
     float lean_x[kSeaWaves], lean_y[kSeaWaves];          ///< largest slopes
     float per_length[kSeaWaves];                         ///< 1/m
+    /// Two slow patterns, likewise, and how many turns each moves a wave: no two crests are alike.
+    float slow_x[2], slow_y[2], slow_phase[2];
+    float bend[kSeaWaves][2];
 };
 
 struct GroundPaint {

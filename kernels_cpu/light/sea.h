@@ -53,8 +53,14 @@ PILEUS_FN SeaPlace<T> sea_place(const SeaView& sea, const SeaWaves& waves, const
     SeaPlace<T> out{};
     T square = all<T>(sea.fine * sea.fine);
     const T steep = min_(max_(rise * (0.5f / sea.slope) - 0.5f, T{}), all<T>(1.0f));
+    T slow[2];
+    for (int i = 0; i < 2; ++i) {
+        const T turns = at.x * waves.slow_x[i] + at.y * waves.slow_y[i] + waves.slow_phase[i];
+        slow[i] = sincos_turns(turns - to_float(floor_int(turns))).cosine;
+    }
     for (int i = 0; i < kSeaWaves; ++i) {
-        const T turns = at.x * waves.x[i] + at.y * waves.y[i] + waves.phase[i];
+        const T turns = at.x * waves.x[i] + at.y * waves.y[i] +
+                        (slow[0] * waves.bend[i][0] + slow[1] * waves.bend[i][1]) + waves.phase[i];
         const T shown = steep * max_(1.0f - metres * (2.0f * waves.per_length[i]), T{});
         const T height = sincos_turns(turns - to_float(floor_int(turns))).cosine * shown;
         out.x = out.x + height * waves.lean_x[i];

@@ -93,6 +93,18 @@ void make_waves(const GroundSurface& surface, double slope, double time_s, const
         out.lean_x[i] = float(lean * double(out.x[i]) * length);
         out.lean_y[i] = float(lean * double(out.y[i]) * length);
         out.per_length[i] = float(k);
+        // By up to half a turn over five lengths of the longest: a tenth of its slope at most.
+        out.bend[i][0] = float(0.5 * (2 * (chance * 3 - std::floor(chance * 3)) - 1));
+        out.bend[i][1] = float(0.5 * (2 * (other * 5 - std::floor(other * 5)) - 1));
+    }
+    for (int i = 0; i < 2; ++i) {
+        const SineCosine way = sincos_deg(surface.wind_from_deg + (i == 0 ? 37 : 118));
+        const double k = 1 / ((5 + 2.3 * i) * longest);
+        const double east = k * way.sine, north = k * way.cosine;
+        out.slow_x[i] = float(east * x_of[0] + north * y_of[0]);
+        out.slow_y[i] = float(east * x_of[1] + north * y_of[1]);
+        const double phase = east * x_of[2] + north * y_of[2];
+        out.slow_phase[i] = float(phase - std::floor(phase));
     }
 }
 
