@@ -53,6 +53,7 @@ Status launch_on_device(const DeviceTable& device, const PathParams& params,
     add_heights(a, k.sun_heights);
     const void* const kernel = kernel_of(*device.kernels, k);
     add_solids(a, k.solids);
+    add_paint(a, k.paint);
     a.in(k.camera_depth, pixels_in(k.camera));
     a.in(k.lamps, Size(k.lamp_count));
     a.both(b.radiance, b.stride * (k.parts_wanted != 0 ? 3 * kPathParts : 3));

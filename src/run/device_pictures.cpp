@@ -214,6 +214,7 @@ Status launch_on_device(const DeviceTable& device, const LampMarchParams& params
     add_medium(a, k.medium);
     for (int i = 0; i < k.media; ++i) a.in(k.phase[i].table);
     add_solids(a, k.solids);
+    add_paint(a, k.paint);
     a.in(b.lamps, Size(k.lamps));
     a.both(b.optical_depth, Size(k.lamps) * product(k.nodes.size));
     if (rows == LampRows::kDepths) {

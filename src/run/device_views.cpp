@@ -81,9 +81,16 @@ void add_solids(DeviceArrays& a, SolidsView& solids) {
     a.in(solids.normals, solids.normals != nullptr ? 9 * smooth : 0);
 }
 
+void add_paint(DeviceArrays& a, GroundPaint& paint) {
+    a.in(paint.map.albedo, Size(paint.map.planes) * Size(paint.map.texels));
+    a.in(paint.sea, 1);
+    add_sky(a, paint.sky);
+}
+
 void add_background(DeviceArrays& a, BackgroundParams& k, BackgroundBuffers& b) {
     add_medium(a, k.medium);
     add_sky(a, k.sky_map);
+    add_paint(a, k.paint);
     a.in(b.map, 3 * product(k.map.size));
     a.in(b.ground_depth, k.shadow.size[0] > 0 ? product(k.shadow.size) : 0);
     a.both(b.colour, 3 * pixels_in(k.camera));

@@ -46,6 +46,7 @@ void add_box(MediumView& medium);
 void add_sky(DeviceArrays& a, SkyMapView& map);
 void add_heights(DeviceArrays& a, SunHeights& heights);
 void add_solids(DeviceArrays& a, SolidsView& solids);
+void add_paint(DeviceArrays& a, GroundPaint& paint);
 void add_layer(DeviceArrays& a, SkyParams& sky);
 void add_background(DeviceArrays& a, BackgroundParams& k, BackgroundBuffers& b);
 
