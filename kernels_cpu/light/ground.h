@@ -95,10 +95,20 @@ PILEUS_FN T pixel_on_ground(const GroundPaint& p, T distance, T rise) {
     return distance * p.texel_turn / sqrt_(max_(rise, all<T>(1e-4f)));
 }
 
+/// The direction in which the map holds what a ray from `at` along `way` meets.
+template <class T>
+PILEUS_FN Vec<T> seen_in_mirror(const GroundPaint& p, const Vec<T>& at, const Vec<T>& way) {
+    if (!(p.mirror_m > 0.0f)) return way;
+    const T far = p.mirror_m / max_(way.z, all<T>(1e-3f));
+    return normalized(Vec<T>{at.x - p.mirror_from[0] + way.x * far,
+                             at.y - p.mirror_from[1] + way.y * far,
+                             at.z - p.mirror_from[2] + way.z * far});
+}
+
 /// What a sea reflects of what is around along `from`, but for the sun. `reflects`: of even light.
 template <class T>
-PILEUS_FN void sea_mirrors(const GroundPaint& p, const SeaPlace<T>& place, const SeaSight<T>& sight,
-                           const Vec<T>& from, T (&out)[3], T& reflects) {
+PILEUS_FN void sea_mirrors(const GroundPaint& p, const Vec<T>& at, const SeaPlace<T>& place,
+                           const SeaSight<T>& sight, const Vec<T>& from, T (&out)[3], T& reflects) {
     const SeaView& sea = *p.sea;
     T sum[3] = {}, whole{}, all_of{};
     for (int i = 0; i < kSeaAlong; ++i) {
@@ -113,7 +123,7 @@ PILEUS_FN void sea_mirrors(const GroundPaint& p, const SeaPlace<T>& place, const
             all_of = all_of + facets;
             whole = whole + weight;
             if (p.sky.columns == 0) continue;
-            const Vec<T> light = map_radiance(p.sky, way);
+            const Vec<T> light = map_radiance(p.sky, seen_in_mirror(p, at, way));
             sum[0] = sum[0] + weight * light.x;
             sum[1] = sum[1] + weight * light.y;
             sum[2] = sum[2] + weight * light.z;
@@ -141,7 +151,7 @@ PILEUS_FN void painted_ground(const GroundPaint& p, const Vec<T>& at, const Vec<
     const SeaPlace<T> place = sea_place(sea, p.waves, at, metres, rise);
     const SeaSight<T> sight = sea_sight(sea, place, from);
     T mirrored[3], density, reflects;
-    sea_mirrors(p, place, sight, from, mirrored, reflects);
+    sea_mirrors(p, at, place, sight, from, mirrored, reflects);
     const Vec<T> sun{all<T>(to_sun[0]), all<T>(to_sun[1]), all<T>(to_sun[2])};
     const T glint = sea_glint(place, sight.seen, from, sun, density);
     for (int c = 0; c < 3; ++c)

@@ -66,6 +66,8 @@ struct GroundPaint {
     float sun[3];    ///< irradiance on a plane that faces the sun
     SkyMapView sky;  ///< all around; no columns: radiance `even`
     float even[3];
+    float mirror_m;        ///< above the sea where the map's things stand; 0: all are far away
+    float mirror_from[3];  ///< where the map was seen from, m, box-local
 };
 
 }  // namespace pileus

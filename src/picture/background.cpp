@@ -125,6 +125,7 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
             k.paint.even[c] = float(light.sky[c]);
         }
         k.paint.sky = light.map;
+        k.paint.mirror_m = 0;  // of the sky alone
     }
     // Of pixels' rays; parallel ones lie as far apart as pixels.
     k.paint.texel_turn = 2 * camera.half_height / float(whole_height(camera));

@@ -43,6 +43,13 @@ struct GroundSurface {
     bool map_repeats = false;
 };
 
+/// Whether a channel of it sends back more light than falls on it, where the mean is `albedo`.
+inline bool sends_too_much(const GroundSurface& surface, double albedo) {
+    for (const float channel : surface.colour)
+        if (double(channel) * albedo > 1 + 1e-6) return true;
+    return false;
+}
+
 struct Lens {
     double aperture_radius_m = 0;  ///< 0: a pinhole
     double focus_distance_m = 0;   ///< along the view; 0: the target's

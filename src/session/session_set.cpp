@@ -50,6 +50,7 @@ const char* camera_fault(const Scene& scene, const Ground& ground, const Camera&
 const char* ground_fault(const Scene& scene, const Camera& camera, const Ground& ground) {
     if (const char* key = out_of_range(ground)) return key;
     if (!scene.lights.empty() || scene.atmosphere.present) return "ground";
+    if (ground.present && sends_too_much(scene.surface, ground.albedo)) return "ground.albedo";
     return is_underground(ground, camera) ? "camera.position_m" : nullptr;
 }
 

@@ -44,13 +44,12 @@ auto with_shining(const Scene& scene, const World& world, const Environment& env
                            solids,
                            {},
                            &environment.look,
-                           &scene.surface,
                            &scene.placement,
                            scene.world.wind_s});
     const InAir lit = in_air(scene, environment.air);
     return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids,
                        by_height(scene, environment.air, world.medium.low_m[2]), &environment.look,
-                       &scene.surface, &scene.placement, scene.world.wind_s});
+                       &scene.placement, scene.world.wind_s});
 }
 
 }  // namespace
@@ -83,7 +82,9 @@ Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Gro
     const double sea_m = ground.present ? ground.altitude_m : 0;
     const double height_m = medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m;
     Ground lit = ground;
-    lit.albedo = ground_albedo(environment.look, ground.albedo, 1).even;
+    lit.albedo = ground_albedo(environment.look, ground.albedo,
+                               stand_of(medium, {}, sea_m - medium.low_m[2]), 1)
+                     .even;
     Image image;
     PILEUS_TRY(light_atmosphere(settings, sun, lit, height_m, threads, environment.air, image));
     SkyMap map;

@@ -16,8 +16,8 @@ std::uint64_t most_tracking_blocks(const Grid& grid, bool local) {
 
 SkyMapBytes sky_map_bytes(const SkyMap& map, const GroundLook& look) {
     // Four channels decoded, and the file, which is hardly larger than its values.
-    return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1]),
-            look.bytes()};
+    return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1]), look.bytes(),
+            look.reading};
 }
 
 /// src/world/medium
@@ -32,6 +32,8 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
     t.add("map of the ground", Stage::kDensity, Stage::kWrite, sky.ground);
+    t.add("map of the ground while it is read", Stage::kDensity, Stage::kDensity,
+          sky.ground_reading);
     t.add("file while it is read", Stage::kDensity, Stage::kDensity, source.reading_bytes);
     t.add("density, turned", Stage::kDensity, Stage::kDensity,
           bytes_of(source.turned_voxels, kFloat));

@@ -17,10 +17,10 @@ namespace pileus {
 /// Most tracking blocks that `prepare_majorants` may choose; one where it is not `local`.
 std::uint64_t most_tracking_blocks(const Grid& grid, bool local);
 
-/// Bytes of a scene's sky map and map of the ground, and of the former's file and picture while
-/// they are read.
+/// Bytes of a scene's sky map and map of the ground, and of their files and pictures while they
+/// are read.
 struct SkyMapBytes {
-    std::uint64_t kept = 0, reading = 0, ground = 0;
+    std::uint64_t kept = 0, reading = 0, ground = 0, ground_reading = 0;
 };
 SkyMapBytes sky_map_bytes(const SkyMap& map, const GroundLook& look);
 

@@ -33,6 +33,9 @@ GroundLook look_of(const Image& image, const GroundSurface& surface) {
     return look;
 }
 
+/// Media over all of the first map below.
+const GroundStand kStand{{100, 200, 0}, {20, 10, 5}, {}, 0};
+
 float albedo_at(const GroundPaint& paint, float x, float y, int level = 0) {
     float share[3];
     ground_share(paint, Vec<float>{x, y, 0}, level, share);
@@ -94,25 +97,50 @@ TEST_CASE("a map lies north up from its south-west corner, between texels it is 
     surface.map_low_m = {100, 200};
     surface.map_size_m = {20, 10};
     const GroundLook look = look_of(image_of(2, 2, {0.1f, 0.2f, 0.5f, 0.6f}), surface);
-    const GroundPaint paint =
-        make_paint(look, surface, 0.3, ground_albedo(look, 0.3, 1), {}, {}, 0);
-    CHECK(albedo_at(paint, 105, 207.5f) == doctest::Approx(0.1));  // north-west
-    CHECK(albedo_at(paint, 115, 207.5f) == doctest::Approx(0.2));
-    CHECK(albedo_at(paint, 105, 202.5f) == doctest::Approx(0.5));
-    CHECK(albedo_at(paint, 110, 205) == doctest::Approx(0.35));
-    CHECK(albedo_at(paint, 100, 200) == doctest::Approx(0.5));      // to its edges
-    CHECK(albedo_at(paint, 99.9f, 205) == doctest::Approx(0.3));    // beyond it the ground's own
-    CHECK(albedo_at(paint, 110, 205, 1) == doctest::Approx(0.35));  // one texel of all
-    CHECK(ground_albedo(look, 0.3, 1).even == doctest::Approx(0.35));
+    const GroundPaint paint = make_paint(look, 0.3, ground_albedo(look, 0.3, kStand, 1), kStand, 0);
+    CHECK(albedo_at(paint, 5, 7.5f) == doctest::Approx(0.1));  // north-west
+    CHECK(albedo_at(paint, 15, 7.5f) == doctest::Approx(0.2));
+    CHECK(albedo_at(paint, 5, 2.5f) == doctest::Approx(0.5));
+    CHECK(albedo_at(paint, 10, 5) == doctest::Approx(0.35));
+    CHECK(albedo_at(paint, 0, 0) == doctest::Approx(0.5));       // to its edges
+    CHECK(albedo_at(paint, -0.1f, 5) == doctest::Approx(0.3));   // beyond it the ground's own
+    CHECK(albedo_at(paint, 10, 5, 1) == doctest::Approx(0.35));  // one texel of all
+    CHECK(ground_albedo(look, 0.3, kStand, 1).even == doctest::Approx(0.35));
+}
+
+TEST_CASE("media are lit by what lies below and around them, not by a map elsewhere") {
+    GroundSurface surface;
+    surface.map_low_m = {30000, 30000};
+    surface.map_size_m = {1, 1};
+    const GroundLook far = look_of(image_of(1, 1, {1.0f}), surface);
+    CHECK(ground_albedo(far, 0.05, kStand, 1).even == doctest::Approx(0.05));
+    // Half of what is below is the map.
+    surface.map_low_m = {100, 200};
+    surface.map_size_m = {10, 10};
+    const GroundLook half = look_of(image_of(1, 1, {1.0f}), surface);
+    CHECK(ground_albedo(half, 0.2, kStand, 1).even == doctest::Approx(0.6));
+}
+
+TEST_CASE("ground beyond a black map is what it is") {
+    GroundSurface surface;
+    surface.map_low_m = {100, 200};
+    surface.map_size_m = {20, 10};
+    for (const float black : {0.0f, 1e-42f}) {
+        const GroundLook look = look_of(image_of(1, 1, {black}), surface);
+        const GroundPaint paint =
+            make_paint(look, 0.2, ground_albedo(look, 0.2, kStand, 1), kStand, 0);
+        CHECK(albedo_at(paint, -5, 5) == doctest::Approx(0.2));
+        CHECK(albedo_at(paint, 5, 5) == doctest::Approx(0).epsilon(1e-6));
+    }
 }
 
 TEST_CASE("a map that repeats has no seam") {
     GroundSurface surface;
+    surface.map_low_m = {100, 200};
     surface.map_size_m = {20, 10};
     surface.map_repeats = true;
     const GroundLook look = look_of(image_of(2, 2, {0.1f, 0.2f, 0.5f, 0.6f}), surface);
-    const GroundPaint paint =
-        make_paint(look, surface, 0.3, ground_albedo(look, 0.3, 1), {}, {}, 0);
+    const GroundPaint paint = make_paint(look, 0.3, ground_albedo(look, 0.3, kStand, 1), kStand, 0);
     for (const float x : {-400.0f, -20.0f, 0.0f, 20.0f, 1e5f})
         for (const float y : {-70.0f, 0.0f, 10.0f}) {
             CHECK(albedo_at(paint, x + 5, y + 2.5f) == doctest::Approx(0.5));
@@ -126,10 +154,11 @@ TEST_CASE("levels of maps of any size are means") {
         for (const int height : {1, 2, 7}) {
             std::vector<float> numbers(std::size_t(width) * std::size_t(height), 0.25f);
             GroundSurface surface;
+            surface.map_low_m = {100, 200};
             surface.map_size_m = {10, 10};
             const GroundLook look = look_of(image_of(width, height, numbers), surface);
             const GroundPaint paint =
-                make_paint(look, surface, 0.25, ground_albedo(look, 0.25, 1), {}, {}, 0);
+                make_paint(look, 0.25, ground_albedo(look, 0.25, kStand, 1), kStand, 0);
             for (int level = 0; level < look.map.levels; ++level)
                 for (const float x : {0.0f, 3.3f, 10.0f})
                     CHECK(albedo_at(paint, x, 9.9f, level) == doctest::Approx(0.25));
@@ -141,12 +170,11 @@ TEST_CASE("media that are turned and moved leave the map where it is") {
     surface.map_low_m = {0, 0};
     surface.map_size_m = {20, 20};
     const GroundLook look = look_of(image_of(2, 2, {0.1f, 0.2f, 0.5f, 0.6f}), surface);
-    Placement placement;
-    placement.offset_m = {100, 50, 0};
-    placement.yaw_deg = 90;
-    const Double3 low{7, -3, 0};
-    const GroundPaint paint =
-        make_paint(look, surface, 0.3, ground_albedo(look, 0.3, 1), low, placement, 0);
+    GroundStand stand;
+    stand.placement.offset_m = {100, 50, 0};
+    stand.placement.yaw_deg = 90;
+    stand.low_m = {7, -3, 0};
+    const GroundPaint paint = make_paint(look, 0.3, ground_albedo(look, 0.3, stand, 1), stand, 0);
     // World (15, 15), less the offset (-85, -35), turned back by 90 degrees (-35, 85), less the
     // corner.
     CHECK(albedo_at(paint, -35 - 7, 85 + 3) == doctest::Approx(0.2));

@@ -132,10 +132,13 @@ TEST_CASE("waves that are shown and those that are not have the sea's slopes") {
     surface.sea = true;
     GroundLook look;
     look.sea = look.painted = true;
+    look.surface = surface;
     REQUIRE(look.facets.resize(1, "test"));
     look.facets[0] = make_sea(surface.wind_m_s);
+    GroundStand stand;
+    stand.low_m = {100, 50, 0};
     const GroundPaint paint =
-        make_paint(look, surface, 0.02, ground_albedo(look, 0.02, 1), {100, 50, 0}, {}, 12);
+        make_paint(look, 0.02, ground_albedo(look, 0.02, stand, 1), stand, 12);
     const double asked = std::pow(double(look.facets[0].slope), 2);
     // Of a pixel of 500 m none is shown; of a point all are, by 40000 places over some waves.
     for (const float metres : {500.0f, 0.0f, 3.0f}) {
@@ -208,6 +211,35 @@ TEST_CASE("a sea under a cloud mirrors it") {
     compare(deck, 0.08);
 }
 
+TEST_CASE("a sea far below mirrors each cloud in its place") {
+    // One cloud over part of what is seen from straight above: it is not mirrored everywhere.
+    compare(
+        {"camera.position_m=[0, 0, 3000]", "camera.target_m=[0, 0, 0]", "camera.up=[0, 1, 0]",
+         "camera.fov_deg=50", "path.samples_per_pixel=600",
+         "medium.0.bounds_m=[[-300, -300, 600], [300, 300, 900]]", "medium.0.resolution=[8, 8, 6]",
+         "medium.0.extinction_per_m=0.01", "medium.0.phase={type=\"henyey-greenstein\", g=0.8}",
+         "sky.radiance=[0.05, 0.1, 0.3]", "sun.elevation_deg=50", "sun.azimuth_deg=90"},
+        0.08);
+}
+
+TEST_CASE("parts of the light over a sea mirror what these have of the clouds") {
+    const auto parts = [](const char* method) {
+        Scene scene =
+            scene_from(kWater, {std::string("method.name=") + method, "output.layers=[\"light\"]",
+                                "medium.0.bounds_m=[[-900, -900, 200], [900, 900, 400]]",
+                                "medium.0.resolution=[16, 16, 8]", "medium.0.extinction_per_m=0.04",
+                                "medium.0.phase={type=\"henyey-greenstein\", g=0.8}",
+                                "sky.radiance=[0.05, 0.1, 0.3]", "sun.elevation_deg=60",
+                                "camera.position_m=[0, -300, 40]", "path.samples_per_pixel=600"});
+        const Picture p = render_one(scene);
+        double sum = 0;
+        for (int y = 0; y < p.image.height; ++y)
+            for (int x = 0; x < p.image.width; ++x) sum += double(p.at("sun.G", x, y));
+        return sum;
+    };
+    CHECK(parts("raymarch") == doctest::Approx(parts("path")).epsilon(0.12));
+}
+
 TEST_CASE("faults of a sea are told in one line") {
     CHECK(
         first_fault({"method.name=collectors"}).find("ground.surface: a sea is shown by methods") !=
@@ -217,6 +249,8 @@ TEST_CASE("faults of a sea are told in one line") {
     CHECK(
         first_fault({"ground.surface=land", "ground.sea_wind_m_s=3"}).find("ground.sea_wind_m_s") !=
         std::string::npos);
+    CHECK(first_fault({"ground.albedo=1"}).find("ground.albedo: more than all light") !=
+          std::string::npos);
     CHECK(first_fault({"ground.albedo=0.8", "ground.colour=[2, 1, 1]"}).find("ground.colour") !=
           std::string::npos);
 }

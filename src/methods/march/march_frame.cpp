@@ -134,9 +134,12 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     read_ground_shadow(shadow, k, b);
     if (state.choice.settings.scattering.ordinates)
         read_ordinate_light(state.light.ordinates.nodes, light, k, b);
-    // Parts of the light mirror what these have of the sky alone.
-    if (&light == &view.lighting && state.picture.mirror.map.columns > 0)
-        k.paint.sky = state.picture.mirror.map;
+    const SeaMirror& mirror = state.picture.mirror;
+    if (mirror.map.columns > 0) {
+        k.paint.sky = mirror.map;
+        k.paint.mirror_m = light.ground.paint.mirror_m;
+        for (int a = 0; a < 3; ++a) k.paint.mirror_from[a] = mirror.from[a];
+    }
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }
@@ -151,7 +154,8 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
     PILEUS_TRY(light_march(context, view, ask.view_slack_deg, state));
     PILEUS_TRY(allocate_picture(context, view, picture));
     picture.planes.late = late_march(view, ask.late, state);
-    if (!ask.media_only) PILEUS_TRY(mirror_sky(context, view, state, picture.mirror));
+    if (!ask.media_only)
+        PILEUS_TRY(mirror_sky(context, view, march_input(view, state), view.lighting, state));
     if (ask.media_only)
         PILEUS_TRY(show_nothing_behind(picture.planes));
     else

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "src/methods/march/march_sea.h"
 #include "src/picture/whole_rays.h"
 
 namespace pileus {
@@ -31,7 +32,10 @@ void take_opaque_depth(const Planes& from, Planes& part) {
 Status show_part(const Context& context, const FrameView& view, const RaymarchInput& in,
                  const Lighting* light, MarchState& state, Planes& part) {
     PILEUS_TRY(allocate_part(view, part));
-    if (light != nullptr) PILEUS_TRY(march_background(context, view, *light, state, part));
+    if (light != nullptr) {
+        PILEUS_TRY(mirror_sky(context, view, in, *light, state));
+        PILEUS_TRY(march_background(context, view, *light, state, part));
+    }
     take_opaque_depth(state.picture.planes, part);
     RaymarchTally counted;  // of the picture's own march alone
     return raymarch_picture(context, in, part, counted);

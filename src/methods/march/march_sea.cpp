@@ -46,6 +46,15 @@ CameraParams mirror_camera(const CameraParams& camera, const Lighting& light, do
     return dome;
 }
 
+/// Whether any ray of the whole picture goes down: one through a corner does then.
+bool sees_ground(const CameraParams& camera) {
+    const float right = float(whole_width(camera)), low = float(whole_height(camera));
+    for (const float x : {-0.5f, right - 0.5f})
+        for (const float y : {-0.5f, low - 0.5f})
+            if (picture_ray(camera, x, y).direction.z < 0) return true;
+    return false;
+}
+
 /// The sky behind the media, in place of what lets it through.
 void add_sky(const Lighting& light, Planes& planes, Buffer<float>& texels) {
     constexpr std::size_t kAll = std::size_t(kColumns) * kRows;
@@ -95,27 +104,30 @@ SkyMapView map_of(const Buffer<float>& texels) {
 
 }  // namespace
 
-Status mirror_sky(const Context& context, const FrameView& view, MarchState& state,
-                  SeaMirror& out) {
+Status mirror_sky(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                  const Lighting& light, MarchState& state) {
+    SeaMirror& out = state.picture.mirror;
     out.map = SkyMapView{};
-    if (view.lighting.ground.paint.sea == nullptr) return Status::ok();
+    if (light.ground.paint.sea == nullptr || !sees_ground(view.camera)) return Status::ok();
     const StageClock clock(context, "mirrored sky");
     const Medium& medium = marched_medium(view, state);
     const double top = medium.sigma > 0 ? medium.extent_m[2] : 0;
-    const CameraParams dome = mirror_camera(view.camera, view.lighting, top);
+    const CameraParams dome = mirror_camera(view.camera, light, top);
+    for (int a = 0; a < 3; ++a) out.from[a] = dome.origin[a];
     PILEUS_TRY(allocate_planes(kColumns, kRows, 3, false, false, out.planes));
     PILEUS_TRY(out.texels.resize(std::uint64_t(3) * kColumns * kRows, "mirrored sky"));
     // Light of ordinates is turned towards the camera that looks.
     OrdinateNodes& nodes = state.light.ordinates.nodes;
     const bool turns = state.choice.settings.scattering.ordinates && !nodes.density.empty();
     if (turns) PILEUS_TRY(turn_ordinates(context, medium, dome, true, nodes));
-    RaymarchInput in = march_input(view, state);
+    RaymarchInput in = whole;
     in.camera = dome;
+    in.lattice = PixelLattice{};
     in.nodes.surfaces = nullptr;
     RaymarchTally counted;  // of the picture's own march alone
     PILEUS_TRY(raymarch_picture(context, in, out.planes, counted));
     if (turns) PILEUS_TRY(turn_ordinates(context, medium, view.camera, true, nodes));
-    add_sky(view.lighting, out.planes, out.texels);
+    add_sky(light, out.planes, out.texels);
     Buffer<float> row;
     PILEUS_TRY(row.resize(std::uint64_t(kColumns), "mirrored sky"));
     for (int i = 0; i < 3 * kBlurs; ++i)

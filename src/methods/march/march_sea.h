@@ -7,8 +7,9 @@
 
 namespace pileus {
 
-/// Fills `out`, which `map` then points into; nothing without a sea, or where none is seen. Errors:
-/// raymarch_picture's.
-Status mirror_sky(const Context& context, const FrameView& view, MarchState& state, SeaMirror& out);
+/// Fills state.picture.mirror with what `whole` marches under `light`, but for solids; nothing
+/// where there is no sea or none of it is seen. Errors: raymarch_picture's.
+Status mirror_sky(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                  const Lighting& light, MarchState& state);
 
 }  // namespace pileus

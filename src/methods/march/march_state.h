@@ -82,7 +82,6 @@ struct MarchLight {
     GroundShadow ground_shadow;
 };
 
-/// The last picture.
 /// What a sea mirrors, of so many directions.
 constexpr int kMirrorColumns = 192, kMirrorRows = 48;
 constexpr std::uint64_t kMirrorTexels = std::uint64_t(kMirrorColumns) * kMirrorRows;
@@ -90,8 +89,10 @@ struct SeaMirror {
     Planes planes;
     Buffer<float> texels;  ///< [3][row][column]
     SkyMapView map{};      ///< no columns: nothing
+    float from[3] = {};    ///< where it was seen from, m, box-local
 };
 
+/// The last picture.
 struct MarchPicture {
     std::array<int, 2> size{};
     bool opaque = false;  ///< something solid could be in it

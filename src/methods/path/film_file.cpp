@@ -91,9 +91,18 @@ void add_medium(const PathInput& in, Digest& d) {
 
 void add_paint(const GroundPaint& paint, Digest& d) {
     for (const float share : paint.share) d.f32(share);
-    if (paint.sea != nullptr) d.f32(paint.sea->slope);
+    if (paint.sea != nullptr) {
+        const SeaWaves& waves = paint.waves;
+        d.f32(paint.sea->slope);
+        for (int i = 0; i < kSeaWaves; ++i)
+            for (const float v : {waves.x[i], waves.y[i], waves.phase[i], waves.lean_x[i],
+                                  waves.lean_y[i], waves.bend[i][0], waves.bend[i][1]})
+                d.f32(v);
+    }
     const GroundMapView& map = paint.map;
     if (map.columns == 0) return;
+    for (const std::int32_t v : {map.columns, map.rows, map.planes, map.repeats})
+        d.u32(std::uint32_t(v));
     for (const float v : map.to_column) d.f32(v);
     for (const float v : map.to_row) d.f32(v);
     d.floats({map.albedo, std::size_t(map.texels) * std::size_t(map.planes)});

@@ -138,9 +138,10 @@ void check_animation(SceneCheck& check) {
         keys.refuse(Track::kHours, "conflicts with a scene without atmosphere.date");
     else if (scene.animation.moves_time)
         keys.refuse(Track::kHours, "conflicts with animation.hours");
-    if (!has_medium_with_time(scene))
-        keys.refuse(Track::kWind,
-                    "conflicts with a scene without a procedural sky or a cloud with an age_s");
+    if (!has_medium_with_time(scene) && !scene.surface.sea)
+        keys.refuse(
+            Track::kWind,
+            "conflicts with a scene without a procedural sky, a cloud with an age_s or a sea");
     if (scene.camera.orthographic) keys.refuse(Track::kFov, "conflicts with parallel rays");
     if (scene.view_files.position_by_place)
         keys.refuse(Track::kPosition, "conflicts with camera.position_deg");

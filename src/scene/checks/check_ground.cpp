@@ -12,6 +12,8 @@ namespace {
 void check_ground_map(SceneCheck& check) {
     GroundSurface& surface = check.scene.surface;
     const Node* map = check.valid_key("ground.map");
+    if (map != nullptr && check.written && surface.map.empty())
+        add_refusal(check, *map, "ground.map", "no name", value_text(*map), "a file, or left out");
     if (surface.map.empty()) {
         for (const char* key : {"ground.map_low_m", "ground.map_size_m", "ground.map_repeats"})
             conflict(check, key, "a ground without a map");
@@ -47,14 +49,15 @@ void check_surface(SceneCheck& check) {
         if (!surface.sea) conflict(check, key, "surface \"land\"");
     if (surface.sea && check.written) fill_water(check);
     check_ground_map(check);
-    const Node* colour = check.valid_key("ground.colour");
-    for (const float channel : surface.colour)
-        if (colour != nullptr && double(channel) * check.scene.ground.albedo > 1) {
-            check.faults.add(colour->at, "ground.colour",
-                             "more than all light is sent back, " + value_text(*colour) +
-                                 ", allowed: at most 1 when times ground.albedo");
-            break;
-        }
+    const char* const keys[] = {"ground.colour", "ground.albedo"};
+    for (const char* key : keys) {
+        const Node* node = check.valid_key(key);
+        if (node == nullptr || !sends_too_much(surface, check.scene.ground.albedo)) continue;
+        check.faults.add(node->at, key,
+                         "more than all light is sent back, " + value_text(*node) +
+                             ", allowed: ground.colour at most 1 when times ground.albedo");
+        break;
+    }
 }
 
 }  // namespace pileus

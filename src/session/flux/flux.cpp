@@ -59,6 +59,11 @@ Status check_settings(const FluxSettings& settings, const Scene& scene, const Bu
         return unknown_budget("--budget generations", "flux", photons ? "photons=N" : "samples=N");
     if (photons && budget.samples >= 0)
         return unknown_budget("--budget samples", "photons", "photons=N");
+    if (photons && scene.surface.sea)
+        return Status::bad_input(
+            scene.file +
+            ": ground.surface: photons know land alone, \"sea\", allowed: land, "
+            "or --method path");
     if (settings.absorbed && !photons)
         return Status::bad_input("--absorbed: by photons alone, allowed: --method photons");
     if (!settings.sensors.empty() && photons)

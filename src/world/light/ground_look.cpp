@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels_cpu/light/sea.h"
+#include "kernels_cpu/light/ground.h"
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/base/number_text.h"
@@ -150,6 +150,7 @@ void lay_out(int width, int height, int planes, GroundMapView& map) {
 
 Status make_ground_map(const std::string& name, const Image& image, const GroundSurface& surface,
                        GroundLook& look) {
+    look.surface = surface;
     const Channel* rgb[3];
     PILEUS_TRY(color_channels(image, rgb));
     const int planes = rgb[0] == rgb[1] && rgb[0] == rgb[2] ? 1 : 3;
@@ -158,16 +159,13 @@ Status make_ground_map(const std::string& name, const Image& image, const Ground
     PILEUS_TRY(look.albedo.resize(all, "ground map"));
     for (int c = 0; c < 3; ++c) {
         float* plane = look.albedo.data() + std::int64_t(c < planes ? c : 0) * look.map.texels;
-        double sum = 0;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const float v =
                     rgb[c]->pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
                 PILEUS_TRY(check_albedo(name, v, x, y));
                 plane[std::int64_t(image.height - 1 - y) * image.width + x] = v;
-                sum += double(v);
             }
-        look.mean[c] = sum / (double(image.width) * double(image.height));
         if (c < planes) halve(look.map, plane);
     }
     look.map.albedo = look.albedo.data();
@@ -181,11 +179,10 @@ Status make_ground_map(const std::string& name, const Image& image, const Ground
 
 Status make_ground_look(const Scene& scene, const Context& context, GroundLook& look) {
     look = GroundLook{};
-    const GroundSurface& surface = scene.surface;
+    const GroundSurface& surface = look.surface = scene.surface;
     if (!scene.ground.present) return Status::ok();
-    for (std::size_t c = 0; c < 3; ++c) look.mean[int(c)] = double(surface.colour[c]);
     look.sea = surface.sea;
-    look.painted = look.sea || look.mean != Double3{1, 1, 1};
+    look.painted = look.sea || surface.colour != Float3{1, 1, 1};
     if (look.sea) {
         PILEUS_TRY(look.facets.resize(1, "sea"));
         const SeaView& sea = look.facets[0] = make_sea(surface.wind_m_s);
@@ -208,6 +205,8 @@ Status make_ground_look(const Scene& scene, const Context& context, GroundLook& 
         return at_key(scene, "ground.map", Status::bad_input(path + ": unknown kind of picture"));
     Image image;
     PILEUS_TRY(at_key(scene, "ground.map", decode_image(*format, path, image, kMaxGroundTexels)));
+    look.reading = file.size() + sizeof(float) * image.channels.size() *
+                                     std::uint64_t(image.width) * std::uint64_t(image.height);
     return at_key(scene, "ground.map", make_ground_map(path, image, surface, look));
 }
 
@@ -227,47 +226,91 @@ SeaView make_sea(double wind_m_s) {
     return sea;
 }
 
-GroundAlbedo ground_albedo(const GroundLook& look, double albedo, double sine) {
-    if (!look.painted) return {albedo, albedo};
-    const double own = (look.mean[0] + look.mean[1] + look.mean[2]) / 3;
-    if (look.map.columns > 0) return {own, own};
-    const double land = own * albedo;
+namespace {
+
+/// A place of the media, box-local, turned and moved into the world: x and y by x, y and 1.
+struct InWorld {
+    double x_of[3], y_of[3];
+};
+InWorld in_world(const GroundStand& stand) {
+    const SineCosine yaw = sincos_deg(stand.placement.yaw_deg);
+    const Double3 &low = stand.low_m, &offset = stand.placement.offset_m;
+    return {{yaw.cosine, -yaw.sine, yaw.cosine * low[0] - yaw.sine * low[1] + offset[0]},
+            {yaw.sine, yaw.cosine, yaw.sine * low[0] + yaw.cosine * low[1] + offset[1]}};
+}
+
+void place_map(const GroundSurface& surface, const InWorld& world, GroundMapView& map) {
+    const double columns = map.columns / surface.map_size_m[0];
+    const double rows = map.rows / surface.map_size_m[1];
+    for (int i = 0; i < 3; ++i) {
+        const double low_x = i == 2 ? surface.map_low_m[0] : 0;
+        const double low_y = i == 2 ? surface.map_low_m[1] : 0;
+        map.to_column[i] = float((world.x_of[i] - low_x) * columns);
+        map.to_row[i] = float((world.y_of[i] - low_y) * rows);
+    }
+}
+
+/// Mean of albedos below the media and as far around them as they are high, of a grid of places.
+double mean_of_map(const GroundLook& look, double own, const GroundStand& stand) {
+    constexpr int kSide = 32;
+    GroundPaint paint{};
+    paint.map = look.map;
+    paint.per_albedo = 1;
+    for (std::size_t c = 0; c < 3; ++c)
+        paint.share[c] = float(double(look.surface.colour[c]) * own);
+    place_map(look.surface, in_world(stand), paint.map);
+    const double wide = stand.extent_m[0] + 2 * stand.top_m;
+    const double deep = stand.extent_m[1] + 2 * stand.top_m;
+    const std::int32_t level = map_level(paint, float(std::max(wide, deep) / kSide));
+    double sum = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            float share[3];
+            const Vec<float> at{float(wide * (x + 0.5) / kSide - stand.top_m),
+                                float(deep * (y + 0.5) / kSide - stand.top_m), 0};
+            ground_share(paint, at, level, share);
+            sum += (double(share[0]) + double(share[1]) + double(share[2])) / 3;
+        }
+    return sum / (kSide * kSide);
+}
+
+}  // namespace
+
+GroundAlbedo ground_albedo(const GroundLook& look, double own, const GroundStand& stand,
+                           double sine) {
+    if (!look.painted) return {own, own};
+    if (look.map.columns > 0) {
+        // Albedos are held over the mean: of a black country over some light.
+        constexpr double kLeast = 1e-4;
+        const double mean = std::max(mean_of_map(look, own, stand), kLeast);
+        return {mean, mean};
+    }
+    const auto& colour = look.surface.colour;
+    const double land = own * (double(colour[0]) + double(colour[1]) + double(colour[2])) / 3;
     if (!look.sea) return {land, land};
     const double water = land * (1 - look.even);
     const double turned = double(sea_reflects(look.facets[0], float(sine > 0 ? sine : 0)));
     return {look.even + water, turned + water};
 }
 
-GroundPaint make_paint(const GroundLook& look, const GroundSurface& surface, double own,
-                       const GroundAlbedo& all, const Double3& low_m, const Placement& placement,
-                       double time_s) {
+GroundPaint make_paint(const GroundLook& look, double own, const GroundAlbedo& all,
+                       const GroundStand& stand, double time_s) {
     GroundPaint paint{};
     if (!look.painted || !(all.even > 0)) return paint;
     paint.on = 1;
     paint.per_albedo = float(1 / all.even);
     paint.share_sun = all.sun > 0 ? float(all.even / all.sun) : 0;
     for (int c = 0; c < 3; ++c)
-        paint.share[c] = float(double(surface.colour[std::size_t(c)]) * own / all.even);
-    // A place of the media, turned and moved into the world, to texels.
-    const SineCosine yaw = sincos_deg(placement.yaw_deg);
-    const double x_of[3] = {yaw.cosine, -yaw.sine,
-                            yaw.cosine * low_m[0] - yaw.sine * low_m[1] + placement.offset_m[0]};
-    const double y_of[3] = {yaw.sine, yaw.cosine,
-                            yaw.sine * low_m[0] + yaw.cosine * low_m[1] + placement.offset_m[1]};
+        paint.share[c] = float(double(look.surface.colour[std::size_t(c)]) * own / all.even);
+    const InWorld world = in_world(stand);
     if (look.sea) {
         paint.sea = look.facets.data();
-        make_waves(surface, double(look.facets[0].slope), time_s, x_of, y_of, paint.waves);
+        make_waves(look.surface, double(look.facets[0].slope), time_s, world.x_of, world.y_of,
+                   paint.waves);
     }
     if (look.map.columns == 0) return paint;
     paint.map = look.map;
-    const double columns = look.map.columns / surface.map_size_m[0];
-    const double rows = look.map.rows / surface.map_size_m[1];
-    for (int i = 0; i < 3; ++i) {
-        const double low_x = i == 2 ? surface.map_low_m[0] : 0;
-        const double low_y = i == 2 ? surface.map_low_m[1] : 0;
-        paint.map.to_column[i] = float((x_of[i] - low_x) * columns);
-        paint.map.to_row[i] = float((y_of[i] - low_y) * rows);
-    }
+    place_map(look.surface, world, paint.map);
     return paint;
 }
 

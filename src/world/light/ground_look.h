@@ -14,13 +14,14 @@ constexpr std::uint64_t kMaxGroundTexels = std::uint64_t{1} << 26;
 
 /// Made once for a scene, then read only; paints point into it.
 struct GroundLook {
+    GroundSurface surface;
     bool painted = false;  ///< false: grey land
     bool sea = false;
-    Buffer<float> albedo;    ///< [plane][level][row][column], rows from the south
-    GroundMapView map{};     ///< but for to_column and to_row
-    Double3 mean{1, 1, 1};   ///< of the map; without one of the colour, over the ground's albedo
-    Buffer<SeaView> facets;  ///< one of a sea
-    double even = 0;         ///< share of even light that a sea's facets reflect
+    Buffer<float> albedo;       ///< [plane][level][row][column], rows from the south
+    GroundMapView map{};        ///< but for to_column and to_row
+    std::uint64_t reading = 0;  ///< bytes of the map's picture and file while they were read
+    Buffer<SeaView> facets;     ///< one of a sea
+    double even = 0;            ///< share of even light that a sea's facets reflect
 
     std::uint64_t bytes() const { return albedo.bytes() + facets.bytes(); }
 };
@@ -41,13 +42,22 @@ Status make_ground_map(const std::string& name, const Image& image, const Ground
 /// Facets under a wind, m/s, by Cox and Munk (1954): the mean square slope of a clean surface.
 SeaView make_sea(double wind_m_s);
 
-/// What the ground sends back where its own albedo is `albedo` and the sun's height has this sine.
-GroundAlbedo ground_albedo(const GroundLook& look, double albedo, double sine);
+/// Where media stand on the ground: box-local, their placement in the world, and how high they
+/// reach above it.
+struct GroundStand {
+    Double3 low_m{}, extent_m{};
+    Placement placement;
+    double top_m = 0;
+};
+
+/// What the ground sends back where its own albedo is `own` and the sun's height has this sine: of
+/// a map the mean below the media and as far around them as they are high.
+GroundAlbedo ground_albedo(const GroundLook& look, double own, const GroundStand& stand,
+                           double sine);
 
 /// What kernels need beside the lights. `own`: Ground::albedo; `all`: what `ground_albedo` told;
-/// `low_m`, `placement`: of the media; `time_s`: that waves have run.
-GroundPaint make_paint(const GroundLook& look, const GroundSurface& surface, double own,
-                       const GroundAlbedo& all, const Double3& low_m, const Placement& placement,
-                       double time_s);
+/// `time_s`: that waves have run.
+GroundPaint make_paint(const GroundLook& look, double own, const GroundAlbedo& all,
+                       const GroundStand& stand, double time_s);
 
 }  // namespace pileus

@@ -67,7 +67,11 @@ void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map
     out.ground.z = shining.ground.altitude_m - medium.low_m[2];
     const double own = shining.ground.albedo;
     GroundAlbedo albedo{own, own};
-    if (shining.look != nullptr) albedo = ground_albedo(*shining.look, own, height);
+    GroundStand stand;
+    if (shining.look != nullptr) {
+        stand = stand_of(medium, *shining.placement, out.ground.z);
+        albedo = ground_albedo(*shining.look, own, stand, height);
+    }
     out.ground.albedo = albedo.even;
     Double3 sky = out.sky;
     if (map != nullptr) sky = map->ground_irradiance / kPi64;
@@ -76,9 +80,9 @@ void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map
     out.ground.beam = albedo.sun / kPi64 * out.sun_irradiance * height;
     out.ground.sun = albedo.sun / kPi64 * sun * height;
     if (shining.look == nullptr) return;
-    out.ground.paint = make_paint(*shining.look, *shining.surface, own, albedo,
-                                  {medium.low_m[0], medium.low_m[1], medium.low_m[2]},
-                                  *shining.placement, shining.time_s);
+    out.ground.paint = make_paint(*shining.look, own, albedo, stand, shining.time_s);
+    // Half of the media's height, where what is mirrored stands.
+    out.ground.paint.mirror_m = float(std::max(stand.top_m - 0.5 * stand.extent_m[2], 0.0));
 }
 
 bool is_dark(const Medium& medium) { return medium.sigma <= 0 || medium.density_max <= 0; }
@@ -171,6 +175,17 @@ void add_light(const char* name, std::uint32_t stream, const Double3& colour, Li
 }
 
 }  // namespace
+
+GroundStand stand_of(const Medium& medium, const Placement& placement, double ground_z) {
+    GroundStand out;
+    for (int a = 0; a < 3; ++a) {
+        out.low_m[a] = medium.low_m[std::size_t(a)];
+        out.extent_m[a] = medium.extent_m[std::size_t(a)];
+    }
+    out.placement = placement;
+    out.top_m = std::max(medium.extent_m[2] - ground_z, 0.0);
+    return out;
+}
 
 Light diffuse_light(const Medium& medium, int hemisphere) {
     Light light;

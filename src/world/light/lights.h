@@ -100,7 +100,6 @@ struct Shining {
     SunHeights sun_heights{};
     /// What the ground looks like, and where the media stand on it; null: grey land.
     const GroundLook* look = nullptr;
-    const GroundSurface* surface = nullptr;
     const Placement* placement = nullptr;
     double time_s = 0;  ///< that waves have run
 };
@@ -127,6 +126,9 @@ Double3 sun_at_height(const Lighting& light, double z);
 
 /// The sun at the media's middle everywhere: no air between them and the ground.
 void set_one_sun(Lighting& light);
+
+/// Where media stand on a ground at this height, m, box-local.
+GroundStand stand_of(const Medium& medium, const Placement& placement, double ground_z);
 
 /// Whether the ground sends channels back unlike.
 bool has_coloured_ground(const Lighting& light);

@@ -6,7 +6,8 @@
 
 namespace pileus {
 
-inline Status mirror_sky(const Context&, const FrameView&, MarchState&, SeaMirror&) {
+inline Status mirror_sky(const Context&, const FrameView&, const RaymarchInput&, const Lighting&,
+                         MarchState&) {
     return Status::ok();
 }
 

@@ -8,6 +8,7 @@
 namespace pileus {
 
 struct GroundLook {
+    std::uint64_t reading = 0;
     std::uint64_t bytes() const { return 0; }
 };
 
@@ -15,12 +16,18 @@ struct GroundAlbedo {
     double even = 0, sun = 0;
 };
 
+struct GroundStand {
+    Double3 low_m{}, extent_m{};
+    Placement placement;
+    double top_m = 0;
+};
+
 inline Status make_ground_look(const Scene&, const Context&, GroundLook&) { return Status::ok(); }
-inline GroundAlbedo ground_albedo(const GroundLook&, double albedo, double) {
+inline GroundAlbedo ground_albedo(const GroundLook&, double albedo, const GroundStand&, double) {
     return {albedo, albedo};
 }
-inline GroundPaint make_paint(const GroundLook&, const GroundSurface&, double, const GroundAlbedo&,
-                              const Double3&, const Placement&, double) {
+inline GroundPaint make_paint(const GroundLook&, double, const GroundAlbedo&, const GroundStand&,
+                              double) {
     return {};
 }
 
