@@ -42,11 +42,8 @@ TEST_CASE("animation: keys that are wrong, or move what is not there") {
          "s.toml:6:21: animation.keys.0.hours: conflicts with a scene without atmosphere.date, 3, "
          "allowed: left out"},
         {keys("{frame = 4, wind_s = 3}"),
-         "s.toml:6:21: animation.keys.0.wind_s: conflicts with a scene without a procedural sky or "
-         "a cloud with "
-         "an age_s, "
-         "3, "
-         "allowed: left out"},
+         "s.toml:6:21: animation.keys.0.wind_s: conflicts with a scene without a procedural sky, "
+         "a cloud with an age_s or a sea, 3, allowed: left out"},
         {keys("{frame = 4, sun_elevation_deg = 3}") + "sun_elevation_deg = [3, 4]\n[sun]\n",
          "s.toml:6:21: animation.keys.0.sun_elevation_deg: conflicts with "
          "animation.sun_elevation_deg, 3, allowed: left out"},
