@@ -43,6 +43,22 @@ Status can_write_file(const std::string& path);
 /// What follows the last point of the file's name, in lower case (ASCII), the point included;
 /// empty where there is none.
 std::string file_extension(const std::string& path);
+/// The row of a table of formats whose `extension` a path has; null: none.
+template <class Row, std::size_t N>
+const Row* row_of_extension(const Row (&rows)[N], const std::string& path) {
+    const std::string extension = file_extension(path);
+    for (const Row& row : rows)
+        if (extension == row.extension) return &row;
+    return nullptr;
+}
+/// The extensions of those rows that `use` takes, for messages.
+template <class Row, std::size_t N, class Use>
+std::string extensions_of(const Row (&rows)[N], const char* between, Use use) {
+    std::string list;
+    for (const Row& row : rows)
+        if (use(row)) list += (list.empty() ? "" : between) + std::string(row.extension);
+    return list;
+}
 /// The same of what a name that ends in ".gz" says is packed there.
 std::string packed_extension(const std::string& path);
 

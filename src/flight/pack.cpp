@@ -84,7 +84,7 @@ Status check_packable(const Scene& scene) {
     if (scene.crop[2] > 0)
         return refuse(scene, "camera.crop", "not packed", "the host's projection of a part");
     PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
-    if (scene.surface.sea || !scene.surface.map.empty() || scene.surface.colour != Float3{1, 1, 1})
+    if (!is_grey_land(scene.surface))
         return refuse(scene, "ground", "a map, colours and a sea are not packed", "grey land");
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");

@@ -3,6 +3,7 @@
 #include "src/picture/background.h"
 
 #include "src/base/angles.h"
+#include "src/world/camera/view.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
@@ -128,7 +129,7 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
         k.paint.mirror_m = 0;  // of the sky alone
     }
     // Of pixels' rays; parallel ones lie as far apart as pixels.
-    k.paint.texel_turn = 2 * camera.half_height / float(whole_height(camera));
+    k.paint.texel_turn = pixel_step(camera);
     // The sky before air is the air's own (air_view.h).
     if (light.air)
         for (float& c : k.sky) c = 0;

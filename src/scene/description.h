@@ -43,6 +43,10 @@ struct GroundSurface {
     bool map_repeats = false;
 };
 
+/// Whether there is no more to it than the ground's albedo.
+inline bool is_grey_land(const GroundSurface& surface) {
+    return !surface.sea && surface.map.empty() && surface.colour == Float3{1, 1, 1};
+}
 /// Whether a channel of it sends back more light than falls on it, where the mean is `albedo`.
 inline bool sends_too_much(const GroundSurface& surface, double albedo) {
     for (const float channel : surface.colour)

@@ -2,40 +2,17 @@
 // Clouds by their age in seconds: they grow, live and are gone, without jumps.
 // in: procedural:cloud with age_s -> out: water and tops by age, bits, faults.
 // docs/generators.md, "Life"
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <string>
 
-#include "src/base/digest.h"
-#include "src/scene/read_scene.h"
-#include "src/world/density/cloud.h"
+#include "tests/law/cloud_texts.h"
 
-using namespace pileus;
+using namespace cloud_test;
 
 namespace {
 
-std::string text_of(const std::string& cloud) {
-    return "[camera]\nposition_m = [0, -9000, 5000]\ntarget_m = [0, 0, 5000]\n[[medium]]\n"
-           "density = \"procedural:cloud\"\ncloud = { " +
-           cloud + " }\n";
-}
-
-std::string fault(const std::string& cloud) {
-    Scene scene;
-    return read_scene_text(text_of(cloud), "s.toml", "", {}, scene).message;
-}
-
-using Size = std::array<int, 3>;
-
 Volume made(const std::string& cloud, double age_s, const Size& size, const char* isa = nullptr) {
-    Scene scene;
-    const Status status = read_scene_text(text_of(cloud + ", age_s = " + std::to_string(age_s)),
-                                          "s.toml", "", {}, scene);
-    REQUIRE_MESSAGE(bool(status), status.message);
-    Volume volume;
-    REQUIRE(make_cloud(scene.media[0], {size, *kernel_table(isa), 0, false}, volume));
-    return volume;
+    return cloud_test::made(medium_of(cloud + ", age_s = " + std::to_string(age_s)), size, isa);
 }
 
 struct Look {
@@ -129,11 +106,6 @@ TEST_CASE("clouds of a field live one after the other") {
 }
 
 TEST_CASE("a cloud of an age has the same bits on every instruction set") {
-    const auto digest = [](const Volume& v) {
-        Digest d;
-        d.floats(v.density.span());
-        return d.hex();
-    };
     const std::string cloud = "type = \"cumulus-congestus\", seed = 2";
     const std::string scalar = digest(made(cloud, 1111, kSmall, "scalar"));
     CHECK(digest(made(cloud, 1111, kSmall)) == scalar);

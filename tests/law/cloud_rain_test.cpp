@@ -2,53 +2,15 @@
 // Procedural clouds: rain below, pouches under anvils, shelves, turning wind.
 // in: procedural:cloud with these keys -> out: bits, boxes, extinction, faults.
 // docs/generators.md, "Rain", "Anvil", "Shelf"
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <string>
 
-#include "src/base/digest.h"
 #include "src/scene/media/cloud_types.h"
-#include "src/scene/read_scene.h"
-#include "src/world/density/cloud.h"
+#include "tests/law/cloud_texts.h"
 
-using namespace pileus;
+using namespace cloud_test;
 
 namespace {
-
-using Size = std::array<int, 3>;
-
-std::string text_of(const std::string& cloud, const std::string& lines) {
-    return "[camera]\nposition_m = [0, -90000, 5000]\ntarget_m = [0, 0, 5000]\n[[medium]]\n"
-           "density = \"procedural:cloud\"\ncloud = { " +
-           cloud + " }\n" + lines;
-}
-
-MediumSettings medium_of(const std::string& cloud, const std::string& lines = "") {
-    Scene scene;
-    const Status status = read_scene_text(text_of(cloud, lines), "s.toml", "", {}, scene);
-    REQUIRE_MESSAGE(bool(status), status.message);
-    return scene.media[0];
-}
-
-std::string fault(const std::string& cloud, const std::string& lines = "") {
-    Scene scene;
-    return read_scene_text(text_of(cloud, lines), "s.toml", "", {}, scene).message;
-}
-
-Volume made(const MediumSettings& medium, const Size& size, const char* isa = nullptr,
-            int threads = 0) {
-    Volume volume;
-    const Status status = make_cloud(medium, {size, *kernel_table(isa), threads, false}, volume);
-    REQUIRE_MESSAGE(bool(status), status.message);
-    return volume;
-}
-
-std::string digest(const Volume& volume) {
-    Digest digest;
-    digest.floats(volume.density.span());
-    return digest.hex();
-}
 
 /// Largest extinction in a layer of cells, 1/m, and the sum of densities.
 struct LayerLook {

@@ -2,62 +2,24 @@
 // Procedural clouds by type: bits, shortened lists, bases, boxes.
 // in: scenes with procedural:cloud -> out: pass or fail.
 // docs/generators.md
-#include "src/world/density/cloud.h"
-
-#include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "src/base/digest.h"
 #include "src/scene/keys/key_row.h"
 #include "src/scene/media/cloud_types.h"
-#include "src/scene/read_scene.h"
+#include "tests/law/cloud_texts.h"
 
-using namespace pileus;
+using namespace cloud_test;
 
 namespace {
-
-using Size = std::array<int, 3>;
 
 const char* const kHeaps[] = {"cumulus-humilis", "cumulus-mediocris", "cumulus-congestus"};
 
 const char* const kLayers[] = {"stratocumulus", "stratocumulus-open", "altocumulus",
                                "stratus",       "nimbostratus",       "fog",
                                "cirrus",        "cirrus-uncinus",     "cirrostratus"};
-
-std::string text_of(const std::string& cloud, const std::string& lines = "") {
-    return "[camera]\nposition_m = [0, -9000, 5000]\ntarget_m = [0, 0, 5000]\n[[medium]]\n"
-           "density = \"procedural:cloud\"\ncloud = { " +
-           cloud + " }\n" + lines;
-}
-
-MediumSettings medium_of(const std::string& cloud, const std::string& lines = "") {
-    Scene scene;
-    const Status status = read_scene_text(text_of(cloud, lines), "s.toml", "", {}, scene);
-    REQUIRE_MESSAGE(bool(status), status.message);
-    return scene.media[0];
-}
-
-std::string fault(const std::string& cloud, const std::string& lines = "") {
-    Scene scene;
-    return read_scene_text(text_of(cloud, lines), "s.toml", "", {}, scene).message;
-}
-
-Volume made(const MediumSettings& medium, const Size& size, const char* isa = nullptr,
-            bool all_balls = false) {
-    Volume volume;
-    const Status status = make_cloud(medium, {size, *kernel_table(isa), 0, all_balls}, volume);
-    REQUIRE_MESSAGE(bool(status), status.message);
-    return volume;
-}
-
-std::string digest(const Volume& volume) {
-    Digest digest;
-    digest.floats(volume.density.span());
-    return digest.hex();
-}
 
 }  // namespace
 
@@ -66,7 +28,7 @@ TEST_CASE("clouds: a shortened list of balls gives the bits of all balls") {
         CAPTURE(type);
         const MediumSettings medium = medium_of("type = \"" + std::string(type) + "\", seed = 7");
         const Size size{70, 66, 50};
-        CHECK(digest(made(medium, size)) == digest(made(medium, size, nullptr, true)));
+        CHECK(digest(made(medium, size)) == digest(made(medium, size, nullptr, 0, true)));
     }
 }
 

@@ -29,7 +29,9 @@ Image image_of(int width, int height, const std::vector<float>& numbers, int cha
 
 GroundLook look_of(const Image& image, const GroundSurface& surface) {
     GroundLook look;
-    REQUIRE(make_ground_map("map", image, surface, look));
+    GroundSurface named = surface;
+    named.map = "map";
+    REQUIRE(make_ground_map("map", image, named, look));
     return look;
 }
 
@@ -216,7 +218,7 @@ TEST_CASE("colours of the ground without a map") {
     CHECK(double(q.at("B", 1, 1)) == doctest::Approx(0.4 * kLit).epsilon(0.02));
 }
 
-TEST_CASE("what a map may not be is told in one line") {
+TEST_CASE("faults of a map are told in one line") {
     const auto fault = [](const std::vector<std::string>& set) {
         Scene scene;
         return read_scene_text(kGround, "test.toml", "", set, scene).message;

@@ -131,7 +131,6 @@ TEST_CASE("waves that are shown and those that are not have the sea's slopes") {
     GroundSurface surface;
     surface.sea = true;
     GroundLook look;
-    look.sea = look.painted = true;
     look.surface = surface;
     REQUIRE(look.facets.resize(1, "test"));
     look.facets[0] = make_sea(surface.wind_m_s);

@@ -111,17 +111,11 @@ Span<const HeightFormat> height_formats() {
 }
 
 const HeightFormat* height_format_of(const std::string& path) {
-    const std::string extension = file_extension(path);
-    for (const HeightFormat& format : kFormats)
-        if (extension == format.extension) return &format;
-    return nullptr;
+    return row_of_extension(kFormats, path);
 }
 
 std::string height_extensions() {
-    std::string list;
-    for (const HeightFormat& format : kFormats)
-        list += (list.empty() ? "" : ", ") + std::string(format.extension);
-    return list;
+    return extensions_of(kFormats, ", ", [](const HeightFormat&) { return true; });
 }
 
 }  // namespace pileus

@@ -22,8 +22,12 @@ const Channel* height_channel(const Image& image) {
     return same(*g) && same(*b) ? r : nullptr;
 }
 
-Status take_plane(const std::string& name, const Image& image, const HeightMapSettings& settings,
-                  std::uint64_t max_triangles, HeightGrid& grid) {
+Status decode_plane(Status (*decode)(const std::string&, Span<const char>, Image&, std::uint64_t),
+                    const std::string& name, Span<const char> bytes,
+                    const HeightMapSettings& settings, std::uint64_t max_triangles,
+                    HeightGrid& grid) {
+    Image image;
+    PILEUS_TRY(decode(name, bytes, image, kMaxImagePixels));
     const Channel* channel = height_channel(image);
     if (channel == nullptr)
         return Status::bad_input(name +
@@ -49,17 +53,13 @@ Status decode_png_heights(const std::string& name, Span<const char> bytes,
 Status decode_exr_heights(const std::string& name, Span<const char> bytes,
                           const HeightMapSettings& settings, std::uint64_t max_triangles,
                           HeightGrid& grid) {
-    Image image;
-    PILEUS_TRY(decode_exr(name, bytes, image));
-    return take_plane(name, image, settings, max_triangles, grid);
+    return decode_plane(decode_exr, name, bytes, settings, max_triangles, grid);
 }
 
 Status decode_pfm_heights(const std::string& name, Span<const char> bytes,
                           const HeightMapSettings& settings, std::uint64_t max_triangles,
                           HeightGrid& grid) {
-    Image image;
-    PILEUS_TRY(decode_pfm(name, bytes, image));
-    return take_plane(name, image, settings, max_triangles, grid);
+    return decode_plane(decode_pfm, name, bytes, settings, max_triangles, grid);
 }
 
 }  // namespace pileus

@@ -108,6 +108,19 @@ Status decode_image(const PictureFormat& format, const std::string& path, Image&
     return format.decode(path, bytes.span(), image, most_pixels);
 }
 
+Status read_colours(const std::string& path, const Limits& limits, std::uint64_t most_pixels,
+                    Image& image, const Channel* (&rgb)[3]) {
+    const PictureFormat* format = picture_format_of(path);
+    if (format == nullptr || !is_read(*format))
+        return Status::bad_input(path +
+                                 ": extension: unknown, allowed: " + picture_extensions(is_read));
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(check_limit(limits, LimitId::kFile, file.size(), path));
+    PILEUS_TRY(decode_image(*format, path, image, most_pixels));
+    return color_channels(image, rgb);
+}
+
 std::string pixel_hash(const Image& image) {
     Digest digest;
     add_pixels(image, digest);

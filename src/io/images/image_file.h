@@ -8,6 +8,7 @@
 
 #include "src/base/buffer.h"
 #include "src/base/digest.h"
+#include "src/base/limits.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
 #include "src/io/images/develop/develop.h"
@@ -52,6 +53,11 @@ Status color_channels(const Image& image, const Channel* (&rgb)[3]);
 /// Checks the size of a picture about to be read: kBadInput below 1, kLimit above the limits.
 Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height,
                         std::uint64_t most_pixels = kMaxImagePixels);
+
+/// Reads the colours of a picture of any format that has a reader, within the limit `file`. Faults
+/// of read_image and color_channels.
+Status read_colours(const std::string& path, const Limits& limits, std::uint64_t most_pixels,
+                    Image& image, const Channel* (&rgb)[3]);
 
 // One file per format; each makes or takes the bytes of a whole file.
 Status encode_exr(const Image& image, Buffer<char>& bytes);

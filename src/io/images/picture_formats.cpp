@@ -62,10 +62,7 @@ Span<const PictureFormat> picture_formats() {
 }
 
 const PictureFormat* picture_format_of(const std::string& path) {
-    const std::string extension = file_extension(path);
-    for (const PictureFormat& format : kFormats)
-        if (extension == format.extension) return &format;
-    return nullptr;
+    return row_of_extension(kFormats, path);
 }
 
 bool is_written(const PictureFormat& format) { return format.encode != nullptr; }
@@ -73,10 +70,7 @@ bool is_radiance(const PictureFormat& format) { return format.radiance && is_rea
 bool is_read(const PictureFormat& format) { return format.decode != nullptr; }
 
 std::string picture_extensions(bool (*use)(const PictureFormat&), const char* between) {
-    std::string list;
-    for (const PictureFormat& format : kFormats)
-        if (use(format)) list += (list.empty() ? "" : between) + std::string(format.extension);
-    return list;
+    return extensions_of(kFormats, between, use);
 }
 
 }  // namespace pileus

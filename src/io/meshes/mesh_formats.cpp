@@ -48,17 +48,11 @@ constexpr MeshFormat kFormats[] = {{".obj", "Wavefront OBJ", false, decode_obj},
 Span<const MeshFormat> mesh_formats() { return {kFormats, sizeof kFormats / sizeof kFormats[0]}; }
 
 const MeshFormat* mesh_format_of(const std::string& path) {
-    const std::string extension = file_extension(path);
-    for (const MeshFormat& format : kFormats)
-        if (extension == format.extension) return &format;
-    return nullptr;
+    return row_of_extension(kFormats, path);
 }
 
 std::string mesh_extensions() {
-    std::string list;
-    for (const MeshFormat& format : kFormats)
-        list += (list.empty() ? "" : ", ") + std::string(format.extension);
-    return list;
+    return extensions_of(kFormats, ", ", [](const MeshFormat&) { return true; });
 }
 
 }  // namespace pileus

@@ -14,6 +14,7 @@
 #include "src/picture/march_view.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
+#include "src/world/camera/view.h"
 #include "src/world/light/behind.h"
 #include "src/world/phase/forward_share.h"
 
@@ -225,7 +226,7 @@ StepParams raymarch_steps(const RaymarchStepSettings& s, const CameraParams& cam
     k.most = float(s.steps);
     k.stretch = s.stretch ? 1 : 0;
     k.growth = k.series = 1;
-    k.pixel = 2 * camera.half_height / float(whole_height(camera));
+    k.pixel = pixel_step(camera);
     switch (s.spacing) {
         case RaymarchSpacing::kUniform:
             break;

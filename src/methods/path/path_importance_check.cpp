@@ -14,6 +14,8 @@ constexpr double kPays = 8e6;
 /// Mean cosine of a phase function from which it gains.
 constexpr float kGains = 0.75f;
 
+constexpr const char* kPainted = "a map, colours or a sea on the ground";
+
 /// What importance does not know of media; null: it knows them.
 const char* unknown_media(const World& world) {
     const Medium& medium = world.medium;
@@ -31,9 +33,7 @@ const char* unknown_keys(const Scene& scene) {
     if (scene.sun.angular_radius_deg > 0) return "sun.angular_radius_deg";
     if (scene.path.max_depth > 0) return "path.max_depth";
     if (scene.camera.flux) return "a flat detector";
-    const GroundSurface& surface = scene.surface;
-    if (surface.sea || !surface.map.empty() || surface.colour != Float3{1, 1, 1})
-        return "a map, colours or a sea on the ground";
+    if (!is_grey_land(scene.surface)) return kPainted;
     return nullptr;
 }
 
@@ -71,7 +71,7 @@ const char* why_no_importance(const FrameView& view) {
     if (const char* part = unknown_keys(view.scene)) return part;
     if (!light.lamps.empty()) return "[[light]]";
     if (view.environment.depth.present) return "solids";
-    if (light.ground.paint.on != 0) return "a map, colours or a sea on the ground";
+    if (light.ground.paint.on != 0) return kPainted;
     if (light.map.columns > 0 || view.environment.sky_map.size[0] > 0) return "a sky map";
     if (light.air || light.sun_heights.rows > 0) return "[atmosphere]";
     return unasked(view.scene, view.world);

@@ -9,6 +9,7 @@
 #include "src/picture/nodes/node_grid.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
+#include "src/world/camera/view.h"
 #include "src/world/light/lights.h"
 
 namespace pileus {
@@ -141,7 +142,7 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
     k.ground_z = float(lighting.ground.z);
     k.ground_albedo = float(lighting.ground.albedo);
     k.paint = lighting.ground.paint;
-    k.paint.texel_turn = 2 * k.camera.half_height / float(whole_height(k.camera));
+    k.paint.texel_turn = pixel_step(k.camera);
     return k;
 }
 

@@ -4,28 +4,21 @@
 // docs/ground.md
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/method_column.h"
-#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 namespace {
 
 void check_ground_map(SceneCheck& check) {
     GroundSurface& surface = check.scene.surface;
-    const Node* map = check.valid_key("ground.map");
-    if (map != nullptr && check.written && surface.map.empty())
-        add_refusal(check, *map, "ground.map", "no name", value_text(*map), "a file, or left out");
-    if (surface.map.empty()) {
+    if (check.key("ground.map") == nullptr) {
         for (const char* key : {"ground.map_low_m", "ground.map_size_m", "ground.map_repeats"})
             conflict(check, key, "a ground without a map");
         return;
     }
-    if (map == nullptr || !check_path(check, *map, "ground.map", surface.map)) return;
+    const Node* map = check.valid_key("ground.map");
+    if (map == nullptr) return;
+    check_picture(check, *map, "ground.map", is_read, surface.map);
     if (surface.sea) conflict(check, "ground.map", "surface \"sea\"");
-    const PictureFormat* format = picture_format_of(surface.map);
-    if (format == nullptr || !is_read(*format))
-        check.faults.add(map->at, "ground.map",
-                         "unknown kind of picture, " + value_text(*map) +
-                             ", allowed: " + picture_extensions(is_read));
     if (!(surface.map_size_m[0] > 0 && surface.map_size_m[1] > 0))
         check.faults.add(map->at, "ground.map",
                          "without ground.map_size_m, " + value_text(*map) +

@@ -11,6 +11,7 @@
 #include "src/methods/support.h"
 #include "src/scene/checks/fault_list.h"
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 
@@ -46,6 +47,10 @@ void check_fields(std::vector<std::unique_ptr<Node>>& values, SceneCheck& check)
 /// Takes over the path of a file to read, with the folder of the environment variable in place of
 /// `${PILEUS_DATA_DIR}` at its front. Returns false after adding a fault.
 bool check_path(SceneCheck& check, const Node& node, const char* key, std::string& file);
+
+/// The same of a picture, of a format that `use` takes.
+void check_picture(SceneCheck& check, const Node& node, const char* key,
+                   bool (*use)(const PictureFormat&), std::string& file);
 
 /// A fault of a node's value: what is wrong, the value, what is allowed.
 void add_refusal(SceneCheck& check, const Node& node, const std::string& key,

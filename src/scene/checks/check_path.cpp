@@ -35,4 +35,13 @@ bool check_path(SceneCheck& check, const Node& node, const char* key, std::strin
     return true;
 }
 
+void check_picture(SceneCheck& check, const Node& node, const char* key,
+                   bool (*use)(const PictureFormat&), std::string& file) {
+    if (!check_path(check, node, key, file)) return;
+    const PictureFormat* format = picture_format_of(file);
+    if (format != nullptr && use(*format)) return;
+    add_refusal(check, node, key, "unknown kind of picture", value_text(node),
+                picture_extensions(use));
+}
+
 }  // namespace pileus

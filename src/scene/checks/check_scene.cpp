@@ -121,14 +121,8 @@ void check_sky(SceneCheck& check) {
         return;
     }
     conflict(check, "sky.radiance", "sky.map");
-    if (map == nullptr || !check_path(check, *map, "sky.map", check.scene.view_files.sky_map))
-        return;
-    const std::string& name = map->text;
-    const PictureFormat* format = picture_format_of(name);
-    if (format == nullptr || !is_radiance(*format))
-        check.faults.add(map->at, "sky.map",
-                         "unknown kind of picture, " + quote_text(name) +
-                             ", allowed: " + picture_extensions(is_radiance));
+    if (map != nullptr)
+        check_picture(check, *map, "sky.map", is_radiance, check.scene.view_files.sky_map);
 }
 
 void check_output(SceneCheck& check) {

@@ -47,13 +47,8 @@ void check_albedo_map(SceneCheck& check, const std::string& path, SolidSettings&
         return;
     }
     conflict(check, path + "albedo", "albedo_map, which has the colours");
-    const Node* map = check.valid_key(key);
-    if (map == nullptr || !check_path(check, *map, key.c_str(), solid.albedo_map)) return;
-    const PictureFormat* format = picture_format_of(solid.albedo_map);
-    if (format == nullptr || !is_read(*format))
-        check.faults.add(map->at, key,
-                         "unknown kind of picture, " + value_text(*map) +
-                             ", allowed: " + picture_extensions(is_read));
+    if (const Node* map = check.valid_key(key))
+        check_picture(check, *map, key.c_str(), is_read, solid.albedo_map);
 }
 
 void check_solid(SceneCheck& check, std::size_t index) {
@@ -88,13 +83,8 @@ void check_depth(SceneCheck& check) {
     const char* mover = is_sequence(depth) ? nullptr : mover_of_view(check.scene);
     if (mover != nullptr)
         conflict(check, mover, "camera.depth, which one camera sees where its name has no #");
-    const Node* file = check.valid_key("camera.depth");
-    if (file == nullptr || !check_path(check, *file, "camera.depth", depth)) return;
-    const PictureFormat* format = picture_format_of(depth);
-    if (format == nullptr || !is_radiance(*format))
-        check.faults.add(file->at, "camera.depth",
-                         "unknown kind of picture, " + value_text(*file) +
-                             ", allowed: " + picture_extensions(is_radiance));
+    if (const Node* file = check.valid_key("camera.depth"))
+        check_picture(check, *file, "camera.depth", is_radiance, depth);
 }
 
 }  // namespace

@@ -20,6 +20,12 @@ Double3 orbit(const Double3& position_m, const Double3& target_m, double degrees
 /// the whole picture.
 double ray_slant(const CameraParams& camera, double x, double y);
 
+/// Angle between pixels' rays of a perspective camera, radians for small ones; metres between
+/// parallel ones.
+inline float pixel_step(const CameraParams& camera) {
+    return 2 * camera.half_height / float(whole_height(camera));
+}
+
 /// Fills the image's world_to_camera, world_to_ndc (world metres, row vectors) and
 /// screen_window_width, as OpenEXR's standard attributes have them: docs/formats.md.
 void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Image& image);

@@ -21,9 +21,9 @@ constexpr double kRainExtinction = 3.65e-4, kRainPower = 0.63;
 /// Metres in which air of 60 % relative humidity at 20 degrees takes up rain of 50 mm/h; that of
 /// others goes by the root of the extinction (Kessler 1969).
 constexpr double kRainLost = 5600;
-constexpr double kRainFalls = 6;      // m/s
-constexpr double kMostLean = 0.5;     // of streaks, over the height fallen
-constexpr double kLeastDepth = 0.02;  // of a shaft, over the cloud's height
+constexpr double kRainFalls = 6;    // m/s
+constexpr double kMaxLean = 0.5;    // of streaks, over the height fallen
+constexpr double kMinDepth = 0.02;  // of a shaft, over the cloud's height
 
 /// Share of a lean that keeps shafts within the box.
 double lean_that_fits(const CloudPlace& place, const CloudRainParams& k) {
@@ -55,8 +55,8 @@ CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
         k.cell[a] = float(edge / size[a]);
         k.corner[a] = float(place.bounds_m[0][axis] - place.foot_m[axis]) + 0.5f * k.cell[a];
     }
-    k.top = float(kLeastDepth * h);
-    k.depth = float(std::max(place.foot_m.z - place.bounds_m[0].z, kLeastDepth * h));
+    k.top = float(kMinDepth * h);
+    k.depth = float(std::max(place.foot_m.z - place.bounds_m[0].z, kMinDepth * h));
     const float high = (k.top - k.corner[2]) / k.cell[2] + 1;
     k.layers = std::int32_t(std::min(std::max(high, 0.0f), float(size[2] - 1)));
     k.strength = float(power_of(cloud.rain, 0.5 * kRainPower) * life.rain);
@@ -80,7 +80,7 @@ CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
         k.plan_per_m = float(1 / (0.7 * cloud.radius_m));
         k.plan_seed = make_key(std::uint64_t(cloud.seed), kCloudLumpStream, 0).k0;
         const WindWay wind = wind_at(cloud, 0);
-        const double lean = std::min(cloud.shear, kMostLean);
+        const double lean = std::min(cloud.shear, kMaxLean);
         k.lean_x = float(lean) * wind.x, k.lean_y = float(lean) * wind.y;
         const float share = float(lean_that_fits(place, k));
         k.lean_x *= share, k.lean_y *= share;

@@ -7,14 +7,11 @@
 
 #include "kernels_cpu/light/ground.h"
 #include "src/base/angles.h"
-#include "src/base/file.h"
 #include "src/base/number_text.h"
 #include "src/base/powers.h"
 #include "src/base/reading_limit.h"
 #include "src/io/images/image_file.h"
-#include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 namespace {
@@ -157,8 +154,8 @@ Status make_ground_map(const std::string& name, const Image& image, const Ground
     lay_out(image.width, image.height, planes, look.map);
     const std::uint64_t all = std::uint64_t(look.map.texels) * std::uint64_t(planes);
     PILEUS_TRY(look.albedo.resize(all, "ground map"));
-    for (int c = 0; c < 3; ++c) {
-        float* plane = look.albedo.data() + std::int64_t(c < planes ? c : 0) * look.map.texels;
+    for (int c = 0; c < planes; ++c) {
+        float* plane = look.albedo.data() + std::int64_t(c) * look.map.texels;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const float v =
@@ -166,14 +163,13 @@ Status make_ground_map(const std::string& name, const Image& image, const Ground
                 PILEUS_TRY(check_albedo(name, v, x, y));
                 plane[std::int64_t(image.height - 1 - y) * image.width + x] = v;
             }
-        if (c < planes) halve(look.map, plane);
+        halve(look.map, plane);
     }
     look.map.albedo = look.albedo.data();
     const double wide = surface.map_size_m[0] / image.width;
     const double high = surface.map_size_m[1] / image.height;
     look.map.repeats = surface.map_repeats ? 1 : 0;
     look.map.texel_m = float(wide > high ? wide : high);
-    look.painted = true;
     return Status::ok();
 }
 
@@ -181,9 +177,7 @@ Status make_ground_look(const Scene& scene, const Context& context, GroundLook& 
     look = GroundLook{};
     const GroundSurface& surface = look.surface = scene.surface;
     if (!scene.ground.present) return Status::ok();
-    look.sea = surface.sea;
-    look.painted = look.sea || surface.colour != Float3{1, 1, 1};
-    if (look.sea) {
+    if (surface.sea) {
         PILEUS_TRY(look.facets.resize(1, "sea"));
         const SeaView& sea = look.facets[0] = make_sea(surface.wind_m_s);
         for (int i = 0; i < kSeaCosines; ++i) {
@@ -196,17 +190,13 @@ Status make_ground_look(const Scene& scene, const Context& context, GroundLook& 
     const StageClock clock(context, "ground map");
     const ReadingLimit readers(context.limits);
     const std::string path = scene_path(scene.directory, surface.map);
-    InputFile file;
-    PILEUS_TRY(at_key(scene, "ground.map", open_file(path, file)));
-    PILEUS_TRY(at_key(scene, "ground.map",
-                      check_limit(context.limits, LimitId::kFile, file.size(), path)));
-    const PictureFormat* format = picture_format_of(path);
-    if (format == nullptr || !is_read(*format))
-        return at_key(scene, "ground.map", Status::bad_input(path + ": unknown kind of picture"));
     Image image;
-    PILEUS_TRY(at_key(scene, "ground.map", decode_image(*format, path, image, kMaxGroundTexels)));
-    look.reading = file.size() + sizeof(float) * image.channels.size() *
-                                     std::uint64_t(image.width) * std::uint64_t(image.height);
+    const Channel* rgb[3];
+    PILEUS_TRY(at_key(scene, "ground.map",
+                      read_colours(path, context.limits, kMaxGroundTexels, image, rgb)));
+    // Its channels decoded, and the file, which is hardly larger than its values.
+    look.reading = 2 * sizeof(float) * image.channels.size() * std::uint64_t(image.width) *
+                   std::uint64_t(image.height);
     return at_key(scene, "ground.map", make_ground_map(path, image, surface, look));
 }
 
@@ -278,7 +268,7 @@ double mean_of_map(const GroundLook& look, double own, const GroundStand& stand)
 
 GroundAlbedo ground_albedo(const GroundLook& look, double own, const GroundStand& stand,
                            double sine) {
-    if (!look.painted) return {own, own};
+    if (is_grey_land(look.surface)) return {own, own};
     if (look.map.columns > 0) {
         // Albedos are held over the mean: of a black country over some light.
         constexpr double kLeast = 1e-4;
@@ -287,7 +277,7 @@ GroundAlbedo ground_albedo(const GroundLook& look, double own, const GroundStand
     }
     const auto& colour = look.surface.colour;
     const double land = own * (double(colour[0]) + double(colour[1]) + double(colour[2])) / 3;
-    if (!look.sea) return {land, land};
+    if (!look.surface.sea) return {land, land};
     const double water = land * (1 - look.even);
     const double turned = double(sea_reflects(look.facets[0], float(sine > 0 ? sine : 0)));
     return {look.even + water, turned + water};
@@ -296,14 +286,14 @@ GroundAlbedo ground_albedo(const GroundLook& look, double own, const GroundStand
 GroundPaint make_paint(const GroundLook& look, double own, const GroundAlbedo& all,
                        const GroundStand& stand, double time_s) {
     GroundPaint paint{};
-    if (!look.painted || !(all.even > 0)) return paint;
+    if (is_grey_land(look.surface) || !(all.even > 0)) return paint;
     paint.on = 1;
     paint.per_albedo = float(1 / all.even);
     paint.share_sun = all.sun > 0 ? float(all.even / all.sun) : 0;
     for (int c = 0; c < 3; ++c)
         paint.share[c] = float(double(look.surface.colour[std::size_t(c)]) * own / all.even);
     const InWorld world = in_world(stand);
-    if (look.sea) {
+    if (look.surface.sea) {
         paint.sea = look.facets.data();
         make_waves(look.surface, double(look.facets[0].slope), time_s, world.x_of, world.y_of,
                    paint.waves);

@@ -15,8 +15,6 @@ constexpr std::uint64_t kMaxGroundTexels = std::uint64_t{1} << 26;
 /// Made once for a scene, then read only; paints point into it.
 struct GroundLook {
     GroundSurface surface;
-    bool painted = false;  ///< false: grey land
-    bool sea = false;
     Buffer<float> albedo;       ///< [plane][level][row][column], rows from the south
     GroundMapView map{};        ///< but for to_column and to_row
     std::uint64_t reading = 0;  ///< bytes of the map's picture and file while they were read

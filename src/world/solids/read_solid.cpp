@@ -9,7 +9,6 @@
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/height_format.h"
-#include "src/scene/rows/picture_format.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -97,16 +96,11 @@ Status read_solid(const Scene& scene, const Context& context, std::size_t solid,
     return at_key(scene, key, smooth_mesh(mesh));
 }
 
-Status colour_triangles(const SolidSettings& settings, const std::string& path, const Mesh& mesh,
-                        Span<float> rows) {
-    const PictureFormat* format = picture_format_of(path);
-    if (format == nullptr || !is_read(*format))
-        return Status::bad_input(path +
-                                 ": extension: unknown, allowed: " + picture_extensions(is_read));
+Status colour_triangles(const SolidSettings& settings, const std::string& path,
+                        const Limits& limits, const Mesh& mesh, Span<float> rows) {
     Image image;
-    PILEUS_TRY(decode_image(*format, path, image, kMaxImagePixels));
     const Channel* rgb[3];
-    PILEUS_TRY(color_channels(image, rgb));
+    PILEUS_TRY(read_colours(path, limits, kMaxImagePixels, image, rgb));
     PILEUS_TRY(check_values(settings, path, image, rgb));
     const SolidSettings placing = placing_of(settings);
     const Extent e = extent_of(placing, mesh);

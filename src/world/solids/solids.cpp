@@ -166,7 +166,7 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
             PILEUS_TRY(
                 at_key(scene, "solid." + std::to_string(i) + ".albedo_map",
                        colour_triangles(settings, scene_path(scene.directory, settings.albedo_map),
-                                        meshes[i], rows)));
+                                        context.limits, meshes[i], rows)));
         }
         PILEUS_TRY(
             at_key(scene, file_key(i),

@@ -78,8 +78,8 @@ bool is_smooth(const SolidSettings& settings);
 
 /// The albedo of each triangle from the solid's map, seen from above: `rows` has room for three
 /// numbers each. kBadInput: not readable, or values outside of [0, 1]; kLimit.
-Status colour_triangles(const SolidSettings& settings, const std::string& path, const Mesh& mesh,
-                        Span<float> rows);
+Status colour_triangles(const SolidSettings& settings, const std::string& path,
+                        const Limits& limits, const Mesh& mesh, Span<float> rows);
 
 /// Sorts the triangles under a tree of boxes. kLimit: out of memory.
 Status build_solid_tree(Solids& solids);
