@@ -29,7 +29,6 @@ endif()
 set(PILEUS_CUDA_ARCHITECTURE 80 CACHE STRING "Compute capability to compile for, without its dot")
 set(cuda_flags -std=c++17 -O3 -fmad=false -ftz=false -prec-div=true -prec-sqrt=true
     --expt-relaxed-constexpr -diag-suppress=1675
-    -gencode "arch=compute_${PILEUS_CUDA_ARCHITECTURE},code=[compute_${PILEUS_CUDA_ARCHITECTURE},sm_${PILEUS_CUDA_ARCHITECTURE}]"
     -Xcompiler=-fPIC -DPILEUS_ISA=cuda "-I${PROJECT_SOURCE_DIR}")
 file(GLOB cuda_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/*.cu")
 file(GLOB_RECURSE cuda_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
@@ -38,12 +37,23 @@ foreach(source IN LISTS cuda_sources)
     cmake_path(GET source STEM stem)
     set(object "${PROJECT_BINARY_DIR}/cuda/${stem}.o")
     add_custom_command(OUTPUT "${object}"
-        COMMAND "${PILEUS_NVCC}" ${cuda_flags} -keep "-keep-dir=${PROJECT_BINARY_DIR}/cuda"
+        COMMAND "${PILEUS_NVCC}" ${cuda_flags}
+            -gencode "arch=compute_${PILEUS_CUDA_ARCHITECTURE},code=[compute_${PILEUS_CUDA_ARCHITECTURE},sm_${PILEUS_CUDA_ARCHITECTURE}]"
+            -keep "-keep-dir=${PROJECT_BINARY_DIR}/cuda"
             -c "${source}" -o "${object}"
         DEPENDS "${source}" ${cuda_headers}
         COMMENT "Building CUDA object ${stem}.o" VERBATIM)
     list(APPEND PILEUS_CUDA_OBJECTS "${object}")
+    # Without the device's assembler, which takes as long again: tools/check_objects --ptx reads it.
+    add_custom_command(OUTPUT "${PROJECT_BINARY_DIR}/cuda/${stem}.alone.ptx"
+        COMMAND "${PILEUS_NVCC}" ${cuda_flags} -ptx
+            -arch=compute_${PILEUS_CUDA_ARCHITECTURE} "${source}"
+            -o "${PROJECT_BINARY_DIR}/cuda/${stem}.alone.ptx"
+        DEPENDS "${source}" ${cuda_headers}
+        COMMENT "Building ${stem}.alone.ptx" VERBATIM)
+    list(APPEND ptx_files "${PROJECT_BINARY_DIR}/cuda/${stem}.alone.ptx")
 endforeach()
+add_custom_target(pileus_ptx DEPENDS ${ptx_files})
 set_source_files_properties(${PILEUS_CUDA_OBJECTS} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 set_source_files_properties(platform/cuda_device.cpp src/run/find_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS PILEUS_WITH_CUDA=1)

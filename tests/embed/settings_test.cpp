@@ -229,9 +229,9 @@ void change_more(Pair& pair) {
     }
 }
 
-/// Every third row, or all in the long form, looks around; of the other moves each makes a third.
+/// Every fifth row, or all in the long form, looks around; of the other moves each makes a third.
 void move_about(const std::vector<Row>& rows) {
-    const std::size_t stride = pileus::row_stride(3);
+    const std::size_t stride = pileus::row_stride(5);
     for (std::size_t number = 0; number < rows.size(); number += stride) {
         const Row& row = rows[number];
         const std::size_t kind = number / stride % 3;

@@ -121,7 +121,7 @@ intensity = 1000000
 
 TEST_CASE("a flight goes through all works and kinds of pictures, as an ordinary session does") {
     // Works, formats, blends, hash, depths out and depth images in: each session a share of all.
-    const unsigned stride = pileus::long_tests() ? 8 : 67;
+    const unsigned stride = pileus::long_tests() ? 8 : 131;
     for (const SettingsRow& row : kSettingsRows) {
         std::string text = kFlightScene;
         if (!row.ground) text.erase(text.find("[ground]"), 9);

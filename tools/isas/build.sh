@@ -9,11 +9,16 @@ built=-
 # Compile from a preset; the release build stays where everyone expects it.
 build() {
     local preset=$1 targets=$2 folder="build/isas-$group" begin=$SECONDS
+    local configure=(--preset "$preset" -B "$folder")
     shift 2
-    if [ "$preset" = release ]; then folder=build/release; fi
+    # With the options that it has.
+    if [ "$preset" = release ]; then
+        folder=build/release configure=(--preset "$preset")
+        if [ -e "$folder/CMakeCache.txt" ]; then configure=("$folder"); fi
+    fi
     mkdir -p "$work"
     # shellcheck disable=SC2086
-    { cmake --preset "$preset" -B "$folder" "$@" &&
+    { cmake "${configure[@]}" "$@" &&
         cmake --build "$folder" --target $targets; } >"$work/$group.log" 2>&1 || {
         tail -n 30 "$work/$group.log" >&2
         fault all "does not build, see $work/$group.log"

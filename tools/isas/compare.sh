@@ -131,8 +131,8 @@ check() {
         fi
         return 0
     }
-    for stem in "$reference"/*.facts; do
-        stem=$(basename "$stem" .facts)
+    for stem in "${scenes[@]}"; do
+        stem=$(basename "$stem" .toml)
         why=$(first_difference "$reference/$stem.facts" "$place/$stem.facts")
         if [ -n "$why" ]; then
             fault "$name" "$stem: $why"
