@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The library of the flight profile: sessions over packed scenes, nothing else. docs/flight.md
 # in: PILEUS_FLIGHT, PILEUS_FLIGHT_METHODS, PILEUS_FLIGHT_LEFT_OUT, kernels of PILEUS_KERNELS
-# -> out: libpileus_flight.a, one object with the functions of pileus_flight.h and pileus_session_*
+# -> out: libpileus_flight.a, one object with the functions pileus_flight_* and pileus_session_*
 if(NOT PILEUS_FLIGHT)
     return()
 endif()
@@ -108,9 +108,9 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
 endforeach()
 
 # One object: of all that was compiled what the functions of the headers reach.
-set(flight_functions init version api_version orbit packed_read flight_open flight_close flight_usage)
-foreach(name size set_camera set_matrices set_sun set_sky set_ground set_lights set_placement set_depth
-        set_frame set_work work govern most_units fit light step render stats)
+set(flight_functions init default version api_version orbit packed_read flight_open flight_close flight_usage)
+foreach(name size set_camera set_matrices set_sun set_environment set_ground set_lamps set_placement set_depth
+        set_frame set_work work govern most_units fit progress step render stats)
     list(APPEND flight_functions session_${name})
 endforeach()
 set(flight_roots)
@@ -132,8 +132,16 @@ add_custom_target(pileus_flight_object DEPENDS "${flight_object}")
 add_library(pileus_flight STATIC "${flight_object}")
 add_dependencies(pileus_flight pileus_flight_object)
 set_target_properties(pileus_flight PROPERTIES LINKER_LANGUAGE CXX)
-target_include_directories(pileus_flight INTERFACE "${PROJECT_SOURCE_DIR}/include")
+target_include_directories(pileus_flight INTERFACE
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 target_compile_definitions(pileus_flight INTERFACE PILEUS_STATIC=1)
+add_library(pileus::flight ALIAS pileus_flight)
+set_target_properties(pileus_flight PROPERTIES EXPORT_NAME flight)
+if(PILEUS_INSTALL)
+    install(TARGETS pileus_flight EXPORT pileusFlight COMPONENT flight)
+    install(EXPORT pileusFlight NAMESPACE pileus:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/pileus"
+        COMPONENT flight)
+endif()
 
 # The example, which tools/flight flies with, and what it tries besides.
 foreach(source examples/flight_loop program/flight_faults program/flight_settings)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What others link: a static and a shared library that show pileus.h alone, and how they are found.
-# in: object libraries, PILEUS_WITH_<LIBRARY> -> out: targets pileus_static, pileus_shared, rules to install
+# in: object libraries, PILEUS_WITH_<LIBRARY> -> out: targets pileus::pileus, pileus::static, rules to install
 # docs/embedding.md; tests/embed builds programs against an installed tree
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -57,10 +57,28 @@ if(NOT CMAKE_CROSSCOMPILING)
     string(APPEND PILEUS_PC_LIBS " -ldl -lpthread")
 endif()
 
+foreach(library IN LISTS libraries)
+    target_include_directories(${library} INTERFACE
+        "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+endforeach()
+target_compile_definitions(pileus_static INTERFACE PILEUS_STATIC)
+target_link_libraries(pileus_static INTERFACE ${PILEUS_STATIC_LINKS})
+# The names of an installed tree, for projects that have this one within them.
+add_library(pileus::static ALIAS pileus_static)
+set_target_properties(pileus_static PROPERTIES EXPORT_NAME static)
+if(PILEUS_HAS_SHARED)
+    add_library(pileus::pileus ALIAS pileus_shared)
+    set_target_properties(pileus_shared PROPERTIES EXPORT_NAME pileus)
+else()
+    add_library(pileus::pileus ALIAS pileus_static)
+endif()
+if(NOT PILEUS_INSTALL)
+    return()
+endif()
+
+set(package "${CMAKE_INSTALL_LIBDIR}/cmake/pileus")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/pileusConfig.cmake.in"
-    "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake"
-    INSTALL_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/pileus"
-    PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
+    "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake" INSTALL_DESTINATION "${package}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
     COMPATIBILITY SameMinorVersion)
 # The tree may be moved.
@@ -68,10 +86,15 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY
     "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE PILEUS_PC_UP)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/pileus.pc.in" "${PROJECT_BINARY_DIR}/package/pileus.pc"
     @ONLY)
-install(TARGETS ${libraries})
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pileus" TYPE INCLUDE)
+# Of each library a file of its own: those who take the shared one need none of what the static one links.
+install(TARGETS pileus_static EXPORT pileusStatic COMPONENT dev)
+install(EXPORT pileusStatic NAMESPACE pileus:: DESTINATION "${package}" COMPONENT dev)
+if(PILEUS_HAS_SHARED)
+    install(TARGETS pileus_shared EXPORT pileusShared LIBRARY COMPONENT library NAMELINK_COMPONENT dev)
+    install(EXPORT pileusShared NAMESPACE pileus:: DESTINATION "${package}" COMPONENT dev)
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pileus" TYPE INCLUDE COMPONENT dev)
 install(FILES "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake"
-    "${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
-    DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/pileus")
+    "${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake" DESTINATION "${package}" COMPONENT dev)
 install(FILES "${PROJECT_BINARY_DIR}/package/pileus.pc"
-    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)

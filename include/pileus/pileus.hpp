@@ -222,7 +222,7 @@ public:
     }
 
     Status set_sky(const Sky& sky) {
-        auto c = detail::cleared<pileus_sky>();
+        auto c = detail::cleared<pileus_environment>();
         c.present = sky.present ? 1 : 0;
         detail::store(sky.radiance, c.radiance);
         c.map_size[0] = sky.map_size.x;
@@ -230,7 +230,7 @@ public:
         c.map = sky.map;
         c.map_scale = sky.map_scale;
         c.map_rotation_deg = sky.map_rotation_deg;
-        return call(pileus_session_set_sky, &c);
+        return call(pileus_session_set_environment, &c);
     }
 
     Status set_ground(const Ground& ground) {
@@ -244,10 +244,10 @@ public:
     /// In place of all lights that the session had, the scene's included. kBadInput: more than 64,
     /// or what the scene's method has no lights for.
     Status set_lights(const std::vector<SceneLight>& lights) {
-        std::vector<pileus_light> given;
+        std::vector<pileus_lamp> given;
         for (const SceneLight& light : lights) {
-            given.push_back(detail::cleared<pileus_light>());
-            pileus_light& c = given.back();
+            given.push_back(detail::cleared<pileus_lamp>());
+            pileus_lamp& c = given.back();
             c.type = static_cast<std::uint32_t>(light.type);
             detail::store(light.position_m, c.position_m);
             detail::store(light.direction, c.direction);
@@ -257,8 +257,8 @@ public:
             detail::store(light.light, c.light);
         }
         return detail::status_of([&](pileus_error* error) {
-            return pileus_session_set_lights(get(), given.data(), detail::count_of(given.size()),
-                                             error);
+            return pileus_session_set_lamps(get(), given.data(), detail::count_of(given.size()),
+                                            error);
         });
     }
 
@@ -307,8 +307,8 @@ public:
     }
 
     Result<Light> light() const {
-        auto c = detail::cleared<pileus_light_info>();
-        Status status = call(pileus_session_light, &c);
+        auto c = detail::cleared<pileus_progress>();
+        Status status = call(pileus_session_progress, &c);
         if (!status) return status;
         return Light{c.whole, c.unit_photons, c.units, c.unit};
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++17 interface of skies of many clouds: an owner over the functions of pileus_clouds.h, by
+// The C++17 interface of skies of many clouds: an owner over the functions of pileus.h, by
 // the rules of pileus.hpp. docs/clouds.md
 #ifndef PILEUS_CLOUDS_HPP
 #define PILEUS_CLOUDS_HPP
 
-#include <pileus/pileus_clouds.h>
+#include <pileus/pileus.h>
 
 #include <memory>
 #include <pileus/pileus.hpp>
@@ -127,7 +127,7 @@ public:
     Session& sky() { return sky_; }
 
     explicit operator bool() const { return bool(handle_); }
-    pileus_clouds* get() const { return handle_.get(); }  ///< for pileus_clouds.h; stays owned
+    pileus_clouds* get() const { return handle_.get(); }  ///< for pileus.h; stays owned
 
 private:
     struct Free {

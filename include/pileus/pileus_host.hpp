@@ -19,10 +19,10 @@ namespace pileus::embed {
 
 enum class Code : std::int32_t {
     kOk = PILEUS_OK,
-    kCheckFailed = PILEUS_CHECK_FAILED,  ///< kernels that give other bits than they must
-    kBadInput = PILEUS_BAD_INPUT,        ///< an argument, a scene or a file of it
-    kLimit = PILEUS_LIMIT,               ///< out of memory, or more than a limit allows
-    kIo = PILEUS_IO                      ///< reading or writing failed half way
+    kCheckFailed = PILEUS_ERROR_CHECK,  ///< kernels that give other bits than they must
+    kBadInput = PILEUS_ERROR_INPUT,     ///< an argument, a scene or a file of it
+    kLimit = PILEUS_ERROR_LIMIT,        ///< out of memory, or more than a limit allows
+    kIo = PILEUS_ERROR_IO               ///< reading or writing failed half way
 };
 
 /// How a call ended: true in an `if` where it worked, else with a line for each fault.

@@ -72,9 +72,9 @@ struct Sun {
 /// A light besides sun and sky; docs/lights.md has the units.
 struct SceneLight {
     enum class Type {
-        kPoint = PILEUS_POINT,
-        kSpot = PILEUS_SPOT,
-        kDirectional = PILEUS_DIRECTIONAL
+        kPoint = PILEUS_LAMP_POINT,
+        kSpot = PILEUS_LAMP_SPOT,
+        kDirectional = PILEUS_LAMP_DIRECTIONAL
     };
     Type type = Type::kPoint;
     glm::dvec3 position_m{0};                    ///< point, spot
@@ -104,10 +104,10 @@ struct Ground {
 };
 
 enum class Depth : std::uint32_t {
-    kDistance = PILEUS_DISTANCE,  ///< metres along each pixel's ray; infinity: nothing
-    kViewZ = PILEUS_VIEW_Z,       ///< metres along the view's axis; infinity: nothing
-    kBuffer =
-        PILEUS_BUFFER  ///< a depth buffer of the camera's projection, 0..1; its far end: nothing
+    kDistance = PILEUS_DEPTH_DISTANCE,  ///< metres along each pixel's ray; infinity: nothing
+    kViewZ = PILEUS_DEPTH_VIEW_Z,       ///< metres along the view's axis; infinity: nothing
+    kBuffer = PILEUS_DEPTH_BUFFER  ///< a depth buffer of the camera's projection, 0..1; its far
+                                   ///< end: nothing
 };
 
 /// Opaque things of the caller, which end rays.
@@ -119,15 +119,16 @@ struct DepthImage {
 };
 
 enum class Format : std::uint32_t {
-    kRgba8Srgb = PILEUS_RGBA8_SRGB,  ///< 4 bytes a pixel, tone curve and sRGB as the program's PNGs
-    kRgba16F = PILEUS_RGBA16F,       ///< 4 IEEE halves, linear radiance
-    kRgba32F = PILEUS_RGBA32F        ///< 4 floats, linear radiance
+    kRgba8Srgb =
+        PILEUS_FORMAT_RGBA8_SRGB,  ///< 4 bytes a pixel, tone curve and sRGB as the program's PNGs
+    kRgba16F = PILEUS_FORMAT_RGBA16F,  ///< 4 IEEE halves, linear radiance
+    kRgba32F = PILEUS_FORMAT_RGBA32F   ///< 4 floats, linear radiance
 };
 
 enum class Blend : std::uint32_t {
-    kReplace = PILEUS_REPLACE,  ///< the whole picture; alpha: the media's
-    kOver = PILEUS_OVER,        ///< the media over what the buffer holds
-    kMedia = PILEUS_MEDIA       ///< the media alone, premultiplied by their alpha
+    kReplace = PILEUS_BLEND_REPLACE,  ///< the whole picture; alpha: the media's
+    kOver = PILEUS_BLEND_OVER,        ///< the media over what the buffer holds
+    kMedia = PILEUS_BLEND_MEDIA       ///< the media alone, premultiplied by their alpha
 };
 
 /// Buffers of the caller, for one picture.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_clouds.h: skies of many clouds.
-#include "include/pileus/pileus_clouds.h"
+// pileus.h: skies of many clouds.
+#include "include/pileus/pileus.h"
 #include "src/api/c_types.h"
 #include "src/clouds/clouds.h"
 
@@ -127,7 +127,9 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
         PILEUS_TRY(take_target(given, clouds->sky->session->camera(), target));
         std::uint64_t hash = 0;
         target.hash = given.hash != nullptr ? &hash : nullptr;
-        PILEUS_TRY(clouds->clouds.render(target));
+        const Status drawn = clouds->clouds.render(target);
+        clouds->sky->cancelled = false;
+        PILEUS_TRY(drawn);
         if (given.hash != nullptr) *given.hash = hash;
         return Status::ok();
     });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_flight.h: a session in a block of the caller.
+// pileus.h: a session in a block of the caller.
 #include <csetjmp>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/api/c_types.h"
 #include "src/flight/block.h"
 #include "src/flight/flight.h"
@@ -33,14 +33,15 @@ void lend(const pileus_flight& given, Block* block, HostParts& parts) {
 
 /// The fault of what is handed over, null without one: there is no memory yet to word it in.
 const char* flight_fault(const pileus_flight* flight, pileus_flight& f, pileus_session** session) {
-    if (!take(flight, f)) return "flight: null or without struct_size, allowed: after PILEUS_INIT";
+    if (!take(flight, f))
+        return "flight: null or not initialised, allowed: what pileus_flight_default() made";
     if (session == nullptr) return "session: null, allowed: where to put it";
     if (f.block == nullptr) return "flight.block: null, allowed: memory";
     static_assert(kMaxThreads == 1024);
     if (f.threads > kMaxThreads) return "flight.threads: too many, allowed: 0 to 1024";
     if (f.frame == nullptr) return "flight.frame: null, allowed: what frames will be drawn into";
-    if (f.frame->struct_size < sizeof(std::uint32_t))
-        return "flight.frame: without struct_size, allowed: after PILEUS_INIT";
+    if (marked_size(f.frame->struct_size) < sizeof(std::uint32_t))
+        return "flight.frame: not initialised, allowed: what pileus_frame_default() made";
     if (f.scene == nullptr) return "flight.scene: null, allowed: a packed scene";
     // Sizes that no memory has: sums of places would begin anew at 0.
     if (f.block_bytes > UINTPTR_MAX - reinterpret_cast<std::uintptr_t>(f.block))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_flight.h in an ordinary library: small memory goes back to the C++ runtime.
-#include "include/pileus/pileus_flight.h"
+// pileus.h in an ordinary library: small memory goes back to the C++ runtime.
+#include "include/pileus/pileus.h"
 #include "src/api/c_types.h"
 
 extern "C" void pileus_flight_close(pileus_session* session) {

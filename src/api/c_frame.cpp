@@ -12,12 +12,14 @@ namespace {
 constexpr float kMaxStops = 100;
 
 Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
-    if (f.format > PILEUS_RGBA32F)
-        return Status::bad_input("frame.format: " + std::to_string(f.format) +
-                                 ", allowed: PILEUS_RGBA8_SRGB, PILEUS_RGBA16F, PILEUS_RGBA32F");
-    if (f.blend > PILEUS_MEDIA)
-        return Status::bad_input("frame.blend: " + std::to_string(f.blend) +
-                                 ", allowed: PILEUS_REPLACE, PILEUS_OVER, PILEUS_MEDIA");
+    if (f.format > PILEUS_FORMAT_RGBA32F)
+        return Status::bad_input(
+            "frame.format: " + std::to_string(f.format) +
+            ", allowed: PILEUS_FORMAT_RGBA8_SRGB, PILEUS_FORMAT_RGBA16F, PILEUS_FORMAT_RGBA32F");
+    if (f.blend > PILEUS_BLEND_MEDIA)
+        return Status::bad_input(
+            "frame.blend: " + std::to_string(f.blend) +
+            ", allowed: PILEUS_BLEND_REPLACE, PILEUS_BLEND_OVER, PILEUS_BLEND_MEDIA");
     if (!(f.exposure_stops >= -kMaxStops && f.exposure_stops <= kMaxStops))
         return Status::bad_input("frame.exposure_stops: " + number_text(double(f.exposure_stops)) +
                                  ", allowed: -100 to 100");
@@ -36,9 +38,10 @@ Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& tar
 }
 
 Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
-    if (f.depth_kind > PILEUS_BUFFER)
-        return Status::bad_input("frame.depth_kind: " + std::to_string(f.depth_kind) +
-                                 ", allowed: PILEUS_DISTANCE, PILEUS_VIEW_Z, PILEUS_BUFFER");
+    if (f.depth_kind > PILEUS_DEPTH_BUFFER)
+        return Status::bad_input(
+            "frame.depth_kind: " + std::to_string(f.depth_kind) +
+            ", allowed: PILEUS_DEPTH_DISTANCE, PILEUS_DEPTH_VIEW_Z, PILEUS_DEPTH_BUFFER");
     target.has_depth = f.depth != nullptr;
     if (!target.has_depth) return Status::ok();
     target.depth_kind = DepthKind(f.depth_kind);
@@ -76,7 +79,9 @@ Status render_frame(const pileus_frame& f, pileus_session& session) {
     PILEUS_TRY(take_target(f, session.session->camera(), target));
     std::uint64_t hash = 0;
     target.hash = f.hash != nullptr ? &hash : nullptr;
-    PILEUS_TRY(session.session->render(target));
+    const Status drawn = session.session->render(target);
+    session.cancelled = false;
+    PILEUS_TRY(drawn);
     if (f.hash != nullptr) *f.hash = hash;
     tell_accidents(session);
     return Status::ok();
@@ -89,12 +94,12 @@ using namespace pileus::api;
 
 extern "C" {
 
-pileus_code pileus_session_light(const pileus_session* session, pileus_light_info* info,
-                                 pileus_error* error) {
+pileus_code pileus_session_progress(const pileus_session* session, pileus_progress* info,
+                                    pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
         const LightUnits light = session->session->light();
-        pileus_light_info out{};
+        pileus_progress out{};
         out.whole = std::uint32_t(light.whole < UINT32_MAX ? light.whole : UINT32_MAX);
         out.unit_photons = light.unit_photons;
         out.units = light.held;
@@ -109,9 +114,14 @@ pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_
     return call(*session, error, [&]() -> Status {
         std::uint64_t traced = 0;
         const Status status = session->session->step(units, traced);
+        session->cancelled = false;
         if (done != nullptr) *done = std::uint32_t(traced);
         return status;
     });
+}
+
+void pileus_session_cancel(pileus_session* session) {
+    if (session != nullptr) session->cancelled = true;
 }
 
 pileus_code pileus_session_render(pileus_session* session, const pileus_frame* frame,
@@ -146,15 +156,7 @@ pileus_code pileus_session_report(const pileus_session* session, char* text, siz
                                   size_t* needed, pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
-        const std::string json = report_json(session->session->told());
-        if (needed != nullptr) *needed = json.size() + 1;
-        if (text == nullptr && size == 0) return Status::ok();
-        if (text == nullptr) return Status::bad_input("text: null, allowed: of size bytes");
-        if (size < json.size() + 1)
-            return Status::limit("report: needs " + std::to_string(json.size() + 1) +
-                                 " bytes, allowed: " + std::to_string(size));
-        std::memcpy(text, json.c_str(), json.size() + 1);
-        return Status::ok();
+        return give_text(report_json(session->session->told()), "report", text, size, needed);
     });
 }
 

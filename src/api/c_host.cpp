@@ -8,14 +8,14 @@
 namespace pileus::api {
 
 Status no_struct(const char* name) {
-    return Status::bad_input(std::string(name) +
-                             ": null or without struct_size, allowed: after PILEUS_INIT");
+    return Status::bad_input(
+        std::string(name) + ": null or not initialised, allowed: what its pileus_*_default() made");
 }
 
 Status no_element(const char* name, std::size_t i) {
     return Status::bad_input(std::string(name) + "[" + std::to_string(i) +
-                             "]: struct_size of another size than the first one's, or none, "
-                             "allowed: after PILEUS_INIT");
+                             "]: not initialised, or of another size than the first one, "
+                             "allowed: what its pileus_*_default() made");
 }
 
 pileus_code no_session(pileus_error* error) {
@@ -28,11 +28,12 @@ Status no_handle(const char* name) {
 
 pileus_code finish(Code status, std::string_view text, pileus_error* error) {
     const pileus_code code = static_cast<pileus_code>(status);
-    if (error == nullptr || error->struct_size < 2 * sizeof(std::uint32_t)) return code;
+    const std::size_t given = error == nullptr ? 0 : marked_size(error->struct_size);
+    if (given < 2 * sizeof(std::uint32_t)) return code;
     error->code = code;
     const std::size_t head = offsetof(pileus_error, message);
-    if (error->struct_size <= head) return code;
-    std::size_t room = error->struct_size - head;
+    if (given <= head) return code;
+    std::size_t room = given - head;
     if (room > sizeof error->message) room = sizeof error->message;
     const std::size_t size = text.size() < room ? text.size() : room - 1;
     std::memcpy(error->message, text.data(), size);
@@ -53,6 +54,18 @@ pileus_code broken_off(const HostParts& host, pileus_error* error) {
                   "flight.block: no room for small objects in a call, allowed: a session opened "
                   "anew in a larger block",
                   error);
+}
+
+Status give_text(const std::string& own, const char* name, char* text, std::size_t size,
+                 std::size_t* needed) {
+    if (needed != nullptr) *needed = own.size() + 1;
+    if (text == nullptr && size == 0) return Status::ok();
+    if (text == nullptr) return Status::bad_input("text: null, allowed: of size bytes");
+    if (size < own.size() + 1)
+        return Status::limit(std::string(name) + ": needs " + std::to_string(own.size() + 1) +
+                             " bytes, allowed: " + std::to_string(size));
+    std::memcpy(text, own.c_str(), own.size() + 1);
+    return Status::ok();
 }
 
 Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
@@ -86,9 +99,10 @@ Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& hos
 extern "C" {
 
 void pileus_init(void* pileus_struct, uint32_t size) {
-    if (pileus_struct == nullptr || size < sizeof size) return;
+    if (pileus_struct == nullptr || size < sizeof size || size > 0xffffu) return;
+    const uint32_t marked = pileus::api::kStructMark | size;
     std::memset(pileus_struct, 0, size);
-    std::memcpy(pileus_struct, &size, sizeof size);
+    std::memcpy(pileus_struct, &marked, sizeof marked);
 }
 
 const char* pileus_version(void) { return pileus::kVersion; }

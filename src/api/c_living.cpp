@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_living.h: a session's density is replaced by the next one.
+// pileus.h: a session's density is replaced by the next one.
 // in: two sessions -> out: their states exchanged. docs/living.md
 #include "src/api/c_types.h"
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/api/c_types.h"
 #include "src/base/number_text.h"
 #include "src/base/single.h"
@@ -84,7 +84,7 @@ Status set_camera(const pileus_camera& given, Session& session) {
 }
 
 /// A map of three floats a texel as an image.
-Status map_image(const pileus_sky& given, Image& image) {
+Status map_image(const pileus_environment& given, Image& image) {
     image.width = int(given.map_size[0]);
     image.height = int(given.map_size[1]);
     const std::size_t texels = std::size_t(image.width) * std::size_t(image.height);
@@ -98,7 +98,7 @@ Status map_image(const pileus_sky& given, Image& image) {
     return Status::ok();
 }
 
-Status set_sky(const pileus_sky& given, Session& session) {
+Status set_sky(const pileus_environment& given, Session& session) {
     Sky sky;
     sky.present = given.present != 0;
     copy3(given.radiance, sky.radiance);
@@ -122,10 +122,11 @@ Status set_sky(const pileus_sky& given, Session& session) {
     return session.set_sky(sky, &image, false);
 }
 
-Status take_light(const pileus_light& given, LightSettings& own) {
-    if (given.type > PILEUS_DIRECTIONAL)
-        return Status::bad_input("light.type: " + std::to_string(given.type) +
-                                 ", allowed: PILEUS_POINT, PILEUS_SPOT, PILEUS_DIRECTIONAL");
+Status take_light(const pileus_lamp& given, LightSettings& own) {
+    if (given.type > PILEUS_LAMP_DIRECTIONAL)
+        return Status::bad_input(
+            "light.type: " + std::to_string(given.type) +
+            ", allowed: PILEUS_LAMP_POINT, PILEUS_LAMP_SPOT, PILEUS_LAMP_DIRECTIONAL");
     own.type = LampKind(given.type);
     if (own.type == LampKind::kDirectional) {
         own.azimuth_deg = given.azimuth_deg;
@@ -149,9 +150,10 @@ Status take_light(const pileus_light& given, LightSettings& own) {
 }
 
 Status set_depth(const pileus_depth_image& given, Session& session) {
-    if (given.kind > PILEUS_BUFFER)
-        return Status::bad_input("depth.kind: " + std::to_string(given.kind) +
-                                 ", allowed: PILEUS_DISTANCE, PILEUS_VIEW_Z, PILEUS_BUFFER");
+    if (given.kind > PILEUS_DEPTH_BUFFER)
+        return Status::bad_input(
+            "depth.kind: " + std::to_string(given.kind) +
+            ", allowed: PILEUS_DEPTH_DISTANCE, PILEUS_DEPTH_VIEW_Z, PILEUS_DEPTH_BUFFER");
     if (given.values == nullptr) return session.set_depth(nullptr, DepthKind::kDistance);
     const auto width = std::int64_t(session.camera().resolution[0]) * std::int64_t(sizeof(float));
     // Read only: rows are shared with those that are written.
@@ -195,7 +197,11 @@ pileus_code pileus_session_create(const pileus_world* world, const pileus_scene*
         if (session == nullptr) return Status::bad_input("session: null, allowed: where to put it");
         auto made = std::make_unique<pileus_session>();
         made->host = parts;
-        PILEUS_TRY(made->session->open(scene->scene, options, true, world->world));
+        RenderOptions own = options;
+        own.interrupted = [asked = options.interrupted, cancelled = &made->cancelled] {
+            return *cancelled || (asked && asked());
+        };
+        PILEUS_TRY(made->session->open(scene->scene, own, true, world->world));
         *session = made.release();
         return Status::ok();
     });
@@ -260,8 +266,8 @@ pileus_code pileus_session_set_sun(pileus_session* session, const pileus_sun* su
     });
 }
 
-pileus_code pileus_session_set_sky(pileus_session* session, const pileus_sky* sky,
-                                   pileus_error* error) {
+pileus_code pileus_session_set_environment(pileus_session* session, const pileus_environment* sky,
+                                           pileus_error* error) {
     return change(session, sky, "sky", error, set_sky);
 }
 
@@ -276,8 +282,8 @@ pileus_code pileus_session_set_ground(pileus_session* session, const pileus_grou
     });
 }
 
-pileus_code pileus_session_set_lights(pileus_session* session, const pileus_light* lights,
-                                      uint32_t count, pileus_error* error) {
+pileus_code pileus_session_set_lamps(pileus_session* session, const pileus_lamp* lights,
+                                     uint32_t count, pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
         if (count > 0 && lights == nullptr)
@@ -287,7 +293,7 @@ pileus_code pileus_session_set_lights(pileus_session* session, const pileus_ligh
                                      std::to_string(kMaxLights));
         std::vector<LightSettings> own(count);
         for (std::size_t i = 0; i < own.size(); ++i) {
-            pileus_light given;
+            pileus_lamp given;
             if (!take_element(lights, i, given)) return no_element("lights", i);
             PILEUS_TRY(take_light(given, own[i]));
             own[i] = held(own[i]);

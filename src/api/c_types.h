@@ -40,14 +40,22 @@ struct HeldWorld {
     std::shared_ptr<const World> world;
 };
 
-/// The part of a caller's struct that this library knows; the rest stays 0. False: null, or no
-/// struct_size.
+/// Stands in the upper half of every struct_size, so that memory that nobody wrote is no struct.
+constexpr std::uint32_t kStructMark = 0x50490000u;
+
+/// Bytes of a caller's struct by its struct_size; 0: not marked.
+inline std::size_t marked_size(std::uint32_t struct_size) {
+    return (struct_size & 0xffff0000u) == kStructMark ? struct_size & 0xffffu : 0;
+}
+
+/// The part of a caller's struct that this library knows; the rest stays 0. False: null, or not
+/// marked.
 template <class T>
 bool take(const T* given, T& own) {
     own = T{};
-    if (given == nullptr || given->struct_size < sizeof(std::uint32_t)) return false;
-    const std::size_t size = given->struct_size < sizeof(T) ? given->struct_size : sizeof(T);
-    std::memcpy(static_cast<void*>(&own), given, size);
+    const std::size_t size = given == nullptr ? 0 : marked_size(given->struct_size);
+    if (size < sizeof(std::uint32_t)) return false;
+    std::memcpy(static_cast<void*>(&own), given, size < sizeof(T) ? size : sizeof(T));
     return true;
 }
 
@@ -56,12 +64,13 @@ bool take(const T* given, T& own) {
 template <class T>
 bool take_element(const T* first, std::size_t i, T& own) {
     own = T{};
-    std::uint32_t step = 0, size = 0;
-    std::memcpy(&step, first, sizeof step);
-    if (step < sizeof step) return false;
+    std::uint32_t mark = 0, size = 0;
+    std::memcpy(&mark, first, sizeof mark);
+    const std::size_t step = marked_size(mark);
+    if (step < sizeof mark) return false;
     const unsigned char* at = reinterpret_cast<const unsigned char*>(first) + i * step;
     std::memcpy(&size, at, sizeof size);
-    if (size != step) return false;
+    if (size != mark) return false;
     std::memcpy(static_cast<void*>(&own), at, step < sizeof(T) ? step : sizeof(T));
     return true;
 }
@@ -74,12 +83,17 @@ Status no_handle(const char* name);
 /// The part of a result that the caller's struct has room for.
 template <class T>
 Status give(T own, T* to, const char* name) {
-    if (to == nullptr || to->struct_size < sizeof(std::uint32_t)) return no_struct(name);
+    const std::size_t size = to == nullptr ? 0 : marked_size(to->struct_size);
+    if (size < sizeof(std::uint32_t)) return no_struct(name);
     own.struct_size = to->struct_size;
-    const std::size_t size = to->struct_size < sizeof(T) ? to->struct_size : sizeof(T);
-    std::memcpy(static_cast<void*>(to), &own, size);
+    std::memcpy(static_cast<void*>(to), &own, size < sizeof(T) ? size : sizeof(T));
     return Status::ok();
 }
+
+/// Copies a text and its zero into the caller's memory. `needed`, where not null: bytes of both.
+/// kLimit: too small a size; kBadInput: null with a size.
+Status give_text(const std::string& own, const char* name, char* text, std::size_t size,
+                 std::size_t* needed);
 
 /// kBadInput: rows that would overlap, or end beyond what memory can have.
 Status take_stride(const char* name, std::int64_t stride, std::int64_t least, std::uint32_t count,
@@ -153,6 +167,7 @@ struct pileus_session {
     /// Another one after a hand-over.
     std::unique_ptr<pileus::Session> session = std::make_unique<pileus::Session>();
     std::vector<std::string> told;  ///< accidents that the log has been told of
+    std::atomic<bool> cancelled{false};
 };
 
 namespace pileus::api {

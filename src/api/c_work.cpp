@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_work.h: what a frame of a session may cost, and the governor.
+// pileus.h: what a frame of a session may cost, and the governor.
 #include "src/api/c_types.h"
 
 namespace pileus::api {
@@ -89,7 +89,7 @@ pileus_code pileus_session_govern(const pileus_session* session, pileus_governor
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
         pileus_governor own;
-        if (!take(governor, own) || governor->struct_size < sizeof(pileus_governor))
+        if (!take(governor, own) || marked_size(governor->struct_size) < sizeof(pileus_governor))
             return no_struct("governor");
         if (!(own.target_s > 0 && own.target_s < 1e6))
             return Status::bad_input("governor.target_s: out of range, allowed: above 0, to 1e6");

@@ -5,15 +5,20 @@
 #include "src/scene/read_scene.h"
 
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "platform/fp_mode.h"
 #include "src/base/file.h"
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/keys/key_value.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {
+
+/// Before each override in a scene's text.
+constexpr std::string_view kSetLine = "\n# --set ";
 
 Status too_long(const std::string& name) {
     return Status::limit(name + ": scene text too long, allowed: at most " +
@@ -119,11 +124,30 @@ Status read_scene_text(const std::string& text, const std::string& name,
         scene.places[key] = faults.place_text(found.node->at);
     // What was set from outside belongs to the scene: the text must make the picture again.
     scene.text = text;
-    for (const std::string& setting : overrides) scene.text += "\n# --set " + setting;
+    for (const std::string& setting : overrides) scene.text.append(kSetLine) += setting;
     scene.overrides = overrides;
     scene.file = name;
     scene.directory = directory;
     out = std::move(scene);
+    return Status::ok();
+}
+
+std::string text_without_overrides(const Scene& scene) {
+    std::size_t added = 0;
+    for (const std::string& setting : scene.overrides) added += kSetLine.size() + setting.size();
+    return scene.text.substr(0, scene.text.size() - added);
+}
+
+Status scene_document(const Scene& scene, std::string& document) {
+    const FpModeGuard guard;
+    Node root;
+    FaultList faults(scene.file, scene.overrides);
+    SyntaxFault syntax;
+    if (!parse_toml(text_without_overrides(scene), root, syntax))
+        return Status::bad_input(scene.file + ": not TOML, " + syntax.what);
+    apply_overrides(scene.overrides, root, faults);
+    PILEUS_TRY(faults.status());
+    document = toml_document(root);
     return Status::ok();
 }
 

@@ -26,6 +26,11 @@ Status read_scene_text(const std::string& text, const std::string& name,
                        const std::string& directory, const std::vector<std::string>& overrides,
                        Scene& out);
 
+/// The text that `scene` was read from, without its overrides.
+std::string text_without_overrides(const Scene& scene);
+/// `scene` as a TOML document that reads as the same scene without overrides.
+Status scene_document(const Scene& scene, std::string& document);
+
 /// Checks a scene that a program has filled in as one that was read: every value by its row, then
 /// the laws between them; a key with its default counts as left out. Such a scene holds what
 /// reading would have filled in: of a kind of cloud, of the paper's variant. kBadInput, one line

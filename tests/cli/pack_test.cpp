@@ -4,7 +4,7 @@
 // docs/flight.md, "Start"
 #include <sstream>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "tests/cli/run_program.h"
 
 namespace pileus {

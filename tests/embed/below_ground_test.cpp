@@ -37,7 +37,7 @@ TEST_CASE("below the ground: a host's placement, and a ground that a host raises
     p.host.aim(from, to, 40, 24, 14);
     const std::string before = p.host.hash();
     const auto refused = [&](pileus_code code, const char* line) {
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK(p.host.out.line() == line);
     };
     refused(p.place(0, -900),
@@ -68,7 +68,7 @@ TEST_CASE("below the ground: a host's placement, and a ground that a host raises
     p.host.check(p.place(0, -500));
     Outcome out;
     CHECK(pileus_session_hand_over(p.host.session.get(), next.session.get(), 0, &out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK_MESSAGE(out.line().find("placement.offset_m: the media are below the ground") == 0,
                   out.line());
     // A session may have another ground than the scene that its world was made of.
@@ -78,7 +78,7 @@ TEST_CASE("below the ground: a host's placement, and a ground that a host raises
                   "ground.altitude_m=600", "camera.position_m=[16,-4000,700]"});
     pileus_session* made = nullptr;
     CHECK(pileus_session_create(p.host.world.get(), high.get(), nullptr, &made, &out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK_MESSAGE(out.line().find("below the ground, lowest z 512") != std::string::npos,
                   out.line());
 }
@@ -88,7 +88,7 @@ TEST_CASE("below the ground: clouds of a sky, and the ground below them") {
     const std::uint64_t before = sky.draw().hash;
     const auto refused = [&](const pileus_cloud& place, const char* line) {
         const pileus_cloud two[2] = {at(0, 0, 0), place};
-        CHECK(pileus_clouds_place(sky.clouds.get(), two, 2, &sky.out.error) == PILEUS_BAD_INPUT);
+        CHECK(pileus_clouds_place(sky.clouds.get(), two, 2, &sky.out.error) == PILEUS_ERROR_INPUT);
         CHECK(sky.out.line() == line);
     };
     refused(at(50000, 0, -600),
@@ -110,8 +110,8 @@ TEST_CASE("below the ground: clouds of a sky, and the ground below them") {
     sky.check(pileus_session_set_ground(sky.sky.session.get(), &ground, &sky.out.error));
     std::vector<float> pixels(24 * 14 * 4);
     auto frame = cleared<pileus_frame>();
-    frame.colour = pixels.data(), frame.format = PILEUS_RGBA32F;
-    CHECK(pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error) == PILEUS_BAD_INPUT);
+    frame.colour = pixels.data(), frame.format = PILEUS_FORMAT_RGBA32F;
+    CHECK(pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error) == PILEUS_ERROR_INPUT);
     CHECK_MESSAGE(
         sky.out.line().find(
             "ground.altitude_m: cloud 0 is below the ground, lowest z 512, allowed: ") == 0,
@@ -143,13 +143,13 @@ TEST_CASE("clouds: what a sky of clouds has no use for is refused") {
     const std::uint64_t before = sky.draw().hash;
     pileus_session* const s = sky.sky.session.get();
     const auto refused = [&](pileus_code code, const char* word) {
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(sky.out.line().find(word) == 0, sky.out.line());
     };
-    auto light = cleared<pileus_light>();
-    light.type = PILEUS_POINT, light.position_m[2] = 3000;
+    auto light = cleared<pileus_lamp>();
+    light.type = PILEUS_LAMP_POINT, light.position_m[2] = 3000;
     for (float& v : light.light) v = 1e6f;
-    refused(pileus_session_set_lights(s, &light, 1, &sky.out.error),
+    refused(pileus_session_set_lamps(s, &light, 1, &sky.out.error),
             "lights: not in a sky of clouds");
     auto work = cleared<pileus_work>();
     auto governor = cleared<pileus_governor>();
@@ -170,7 +170,7 @@ TEST_CASE("clouds: what a sky of clouds has no use for is refused") {
     for (const bool lit : {false, true}) {
         Hosted bare(sky_text(), {"method.name=raymarch"});
         if (lit)
-            bare.check(pileus_session_set_lights(bare.session.get(), &light, 1, &bare.out.error));
+            bare.check(pileus_session_set_lamps(bare.session.get(), &light, 1, &bare.out.error));
         else
             bare.check(pileus_session_set_work(bare.session.get(), &work, &bare.out.error));
         pileus_clouds* made = nullptr;
@@ -179,12 +179,12 @@ TEST_CASE("clouds: what a sky of clouds has no use for is refused") {
     }
     // Once they have gone, a session is as any other.
     sky.clouds.reset();
-    sky.check(pileus_session_set_lights(s, &light, 1, &sky.out.error));
+    sky.check(pileus_session_set_lamps(s, &light, 1, &sky.out.error));
 
     CloudySky others({at(0, 0, 0)});
     const Hosted towards(kSmallCumulus,
                          {"method.name=photon-grid", "photon_grid.closure=\"camera\""});
     CHECK(pileus_clouds_add_kind(others.clouds.get(), towards.world.get(), towards.scene.get(),
-                                 nullptr, &sky.out.error) == PILEUS_BAD_INPUT);
+                                 nullptr, &sky.out.error) == PILEUS_ERROR_INPUT);
     CHECK(sky.out.line().find("kind: photon_grid.closure \"camera\"") == 0);
 }

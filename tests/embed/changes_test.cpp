@@ -17,8 +17,8 @@ const Overrides kPath = {"method.name=path", "path.samples_per_pixel=1", "camera
 std::uint32_t held(Hosted& host) {
     // What was set is taken up by the next step, though it be none.
     host.check(pileus_session_step(host.session.get(), 0, nullptr, &host.out.error));
-    auto light = cleared<pileus_light_info>();
-    host.check(pileus_session_light(host.session.get(), &light, &host.out.error));
+    auto light = cleared<pileus_progress>();
+    host.check(pileus_session_progress(host.session.get(), &light, &host.out.error));
     return std::uint32_t(light.units);
 }
 
@@ -123,34 +123,34 @@ TEST_CASE("changes: each number of a sun, a ground and a place by itself") {
 }
 
 TEST_CASE("changes: each number of a light by itself") {
-    auto spot = cleared<pileus_light>();
-    spot.type = PILEUS_SPOT;
+    auto spot = cleared<pileus_lamp>();
+    spot.type = PILEUS_LAMP_SPOT;
     spot.position_m[1] = -900, spot.position_m[2] = 900;
     spot.direction[1] = 1;
     spot.cone_deg = 50, spot.penumbra_deg = 5, spot.radius_m = 2, spot.shadow_samples = 2;
     for (float& c : spot.light) c = 1e5f;
-    const auto set = [](pileus_session* s, const pileus_light& l, pileus_error* e) {
-        return pileus_session_set_lights(s, &l, 1, e);
+    const auto set = [](pileus_session* s, const pileus_lamp& l, pileus_error* e) {
+        return pileus_session_set_lamps(s, &l, 1, e);
     };
-    std::vector<std::function<void(pileus_light&)>> changes = {
-        [](pileus_light& l) { l.type = PILEUS_POINT; }, [](pileus_light& l) { l.cone_deg = 51; },
-        [](pileus_light& l) { l.penumbra_deg = 6; },    [](pileus_light& l) { l.radius_m = 3; },
-        [](pileus_light& l) { l.shadow_samples = 3; },
+    std::vector<std::function<void(pileus_lamp&)>> changes = {
+        [](pileus_lamp& l) { l.type = PILEUS_LAMP_POINT; }, [](pileus_lamp& l) { l.cone_deg = 51; },
+        [](pileus_lamp& l) { l.penumbra_deg = 6; },         [](pileus_lamp& l) { l.radius_m = 3; },
+        [](pileus_lamp& l) { l.shadow_samples = 3; },
     };
     for (int a = 0; a < 3; ++a) {
-        changes.push_back([a](pileus_light& l) { l.position_m[a] += 1; });
-        changes.push_back([a](pileus_light& l) { l.direction[a] += 0.5; });
-        changes.push_back([a](pileus_light& l) { l.light[a] = 2e5f; });
+        changes.push_back([a](pileus_lamp& l) { l.position_m[a] += 1; });
+        changes.push_back([a](pileus_lamp& l) { l.direction[a] += 0.5; });
+        changes.push_back([a](pileus_lamp& l) { l.light[a] = 2e5f; });
     }
-    one_at_a_time<pileus_light>(spot, changes, set);
-    auto beam = cleared<pileus_light>();
-    beam.type = PILEUS_DIRECTIONAL;
+    one_at_a_time<pileus_lamp>(spot, changes, set);
+    auto beam = cleared<pileus_lamp>();
+    beam.type = PILEUS_LAMP_DIRECTIONAL;
     beam.azimuth_deg = 30, beam.elevation_deg = 40;
     for (float& c : beam.light) c = 1;
-    one_at_a_time<pileus_light>(
+    one_at_a_time<pileus_lamp>(
         beam,
-        {[](pileus_light& l) { l.azimuth_deg = 31; }, [](pileus_light& l) { l.elevation_deg = 41; },
-         [](pileus_light& l) { l.light[1] = 2; }},
+        {[](pileus_lamp& l) { l.azimuth_deg = 31; }, [](pileus_lamp& l) { l.elevation_deg = 41; },
+         [](pileus_lamp& l) { l.light[1] = 2; }},
         set);
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("changes: places out of range, on every axis") {
     Hosted host(kSmallCumulus, kPath);
     const auto refused = [&](const pileus_placement& place, const char* key) {
         CHECK(pileus_session_set_placement(host.session.get(), &place, &host.out.error) ==
-              PILEUS_BAD_INPUT);
+              PILEUS_ERROR_INPUT);
         CHECK(host.out.line().find(key) == 0);
     };
     for (const double far : {2e9, -2e9}) {
@@ -173,28 +173,29 @@ TEST_CASE("changes: places out of range, on every axis") {
     }
     // Below a sky map, whose lights would have to turn.
     const std::vector<float> texels(8 * 4 * 3, 0.5f);
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     sky.present = 1;
     sky.map_size[0] = 8, sky.map_size[1] = 4;
     sky.map = texels.data();
-    host.check(pileus_session_set_sky(host.session.get(), &sky, &host.out.error));
+    host.check(pileus_session_set_environment(host.session.get(), &sky, &host.out.error));
     auto place = cleared<pileus_placement>();
     place.yaw_deg = 1;
     refused(place, "placement.yaw_deg: not below a sky map");
     auto ground = cleared<pileus_ground>();
     CHECK(pileus_session_set_ground(host.session.get(), &ground, &host.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(host.out.line().find("ground: the sky map was read with it") == 0);
     // The map is kept where no other is given, and goes with a sky without one.
     sky.map = nullptr;
-    host.check(pileus_session_set_sky(host.session.get(), &sky, &host.out.error));
+    host.check(pileus_session_set_environment(host.session.get(), &sky, &host.out.error));
     refused(place, "placement.yaw_deg: not below a sky map");
     sky.map_size[0] = sky.map_size[1] = 0;
-    host.check(pileus_session_set_sky(host.session.get(), &sky, &host.out.error));
+    host.check(pileus_session_set_environment(host.session.get(), &sky, &host.out.error));
     host.check(pileus_session_set_placement(host.session.get(), &place, &host.out.error));
     sky.map_size[0] = 20000, sky.map_size[1] = 4;
     sky.map = texels.data();
-    CHECK(pileus_session_set_sky(host.session.get(), &sky, &host.out.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_set_environment(host.session.get(), &sky, &host.out.error) ==
+          PILEUS_ERROR_INPUT);
     CHECK(host.out.line().find("sky.map_size: ") == 0);
 }
 
@@ -247,7 +248,7 @@ TEST_CASE("changes: work that a method does not have, or more than the scene's, 
         auto work = cleared<pileus_work>();
         row.change(work);
         CHECK(pileus_session_set_work(host.session.get(), &work, &host.out.error) ==
-              PILEUS_BAD_INPUT);
+              PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(host.out.line().find(row.line) != std::string::npos, host.out.line());
         CHECK(host.out.line().find("allowed: ") != std::string::npos);
         host.check(pileus_session_work(host.session.get(), &after, &host.out.error));
@@ -268,7 +269,7 @@ TEST_CASE("changes: calls without a session, and numbers out of range, have a li
     std::uint32_t width = 0, height = 0;
     governor.target_s = 0.01;
     const auto refused = [&](pileus_code code, const char* line) {
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(host.out.line().find(line) == 0, host.out.line());
     };
     refused(pileus_session_set_work(nullptr, &work, e), "session: null");
@@ -281,8 +282,8 @@ TEST_CASE("changes: calls without a session, and numbers out of range, have a li
             "session: null");
     refused(pileus_session_size(nullptr, &width, &height, e), "session: null");
     refused(pileus_session_set_frame(nullptr, 1, e), "session: null");
-    refused(pileus_session_set_lights(nullptr, nullptr, 0, e), "session: null");
-    refused(pileus_session_light(nullptr, nullptr, e), "session: null");
+    refused(pileus_session_set_lamps(nullptr, nullptr, 0, e), "session: null");
+    refused(pileus_session_progress(nullptr, nullptr, e), "session: null");
     refused(pileus_session_step(nullptr, 1, nullptr, e), "session: null");
     refused(pileus_session_stats(nullptr, nullptr, e), "session: null");
     refused(pileus_session_set_work(s, nullptr, e), "work: null");
@@ -297,7 +298,7 @@ TEST_CASE("changes: calls without a session, and numbers out of range, have a li
     refused(pileus_session_size(s, &width, nullptr, e), "width");
     auto older = work;
     older.struct_size = 0;
-    refused(pileus_session_most_units(s, &older, &units, e), "work: null or without");
+    refused(pileus_session_most_units(s, &older, &units, e), "work: null or not initialised");
     work.steps = 0xffffffffu;
     refused(pileus_session_most_units(s, &work, &units, e), "work: 4294967295");
     work = cleared<pileus_work>();

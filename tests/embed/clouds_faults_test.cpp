@@ -35,7 +35,7 @@ TEST_CASE("clouds: corners have pictures") {
     camera.position_m[2] = camera.target_m[2] = 1000;
     camera.height_m = 3000;
     CHECK(pileus_session_set_camera(sky.sky.session.get(), &camera, &sky.out.error) == PILEUS_OK);
-    CHECK(sky.draw(PILEUS_MEDIA).sum(3) > 0);
+    CHECK(sky.draw(PILEUS_BLEND_MEDIA).sum(3) > 0);
 }
 
 TEST_CASE("clouds: wrong use has a line and changes nothing") {
@@ -43,7 +43,7 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
     const Picture before = sky.draw();
     pileus_clouds* const clouds = sky.clouds.get();
     const auto refused = [&](pileus_code code, const char* word) {
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(sky.out.line().find(word) != std::string::npos, sky.out.line());
         CHECK(sky.out.line().find("allowed") != std::string::npos);
     };
@@ -64,7 +64,7 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
     pileus_clouds* made = nullptr;
     refused(pileus_clouds_create(sky.kind.session.get(), &made, &sky.out.error), "sky");
     CHECK(made == nullptr);
-    CHECK(pileus_clouds_create(nullptr, &made, &sky.out.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_clouds_create(nullptr, &made, &sky.out.error) == PILEUS_ERROR_INPUT);
     refused(pileus_clouds_add_kind(clouds, sky.sky.world.get(), sky.sky.scene.get(), nullptr,
                                    &sky.out.error),
             "kind");
@@ -96,8 +96,8 @@ TEST_CASE("clouds: turns that take more memory than is allowed are refused befor
     auto frame = cleared<pileus_frame>();
     std::vector<float> pixels(4 * std::size_t(one.width) * one.height);
     frame.colour = pixels.data();
-    frame.format = PILEUS_RGBA32F;
-    CHECK(pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error) == PILEUS_LIMIT);
+    frame.format = PILEUS_FORMAT_RGBA32F;
+    CHECK(pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error) == PILEUS_ERROR_LIMIT);
     CHECK_MESSAGE(
         sky.out.line().find("clouds: light of 300 kinds and turns: limits.memory: needs ") == 0,
         sky.out.line());
@@ -134,8 +134,8 @@ TEST_CASE("clouds: where memory ends within a picture, the next one is whole") {
         frame.hash = &hash;
         const pileus_code code = pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error);
         memory.left = 1L << 40;
-        REQUIRE((code == PILEUS_OK || code == PILEUS_LIMIT));
-        refused += code == PILEUS_LIMIT;
+        REQUIRE((code == PILEUS_OK || code == PILEUS_ERROR_LIMIT));
+        refused += code == PILEUS_ERROR_LIMIT;
         hash = sky.draw().hash;
         if (whole == 0) whole = hash;
         CAPTURE(most);

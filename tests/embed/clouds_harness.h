@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small skies with clouds of one kind, by pileus_clouds.h.
+// Small skies with clouds of one kind, by pileus.h.
 // in: places -> out: pictures of them, and how far two are apart.
 // docs/clouds.md
 #pragma once
-#include "include/pileus/pileus_clouds.h"
+#include "include/pileus/pileus.h"
 #include "tests/embed/host_harness.h"
 
 namespace clouds_test {
@@ -78,14 +78,14 @@ struct CloudySky {
         d.near_scale = near_scale;
         check(pileus_clouds_set_detail(clouds.get(), &d, &out.error));
     }
-    Picture draw(pileus_blend blend = PILEUS_REPLACE) {
+    Picture draw(pileus_blend blend = PILEUS_BLEND_REPLACE) {
         Picture p;
         check(pileus_session_size(sky.session.get(), &p.width, &p.height, &out.error));
         p.rgba.resize(4 * std::size_t(p.width) * p.height);
         p.depth.resize(std::size_t(p.width) * p.height);
         auto frame = cleared<pileus_frame>();
         frame.colour = p.rgba.data();
-        frame.format = PILEUS_RGBA32F;
+        frame.format = PILEUS_FORMAT_RGBA32F;
         frame.blend = blend;
         frame.depth = p.depth.data();
         frame.hash = &p.hash;
@@ -127,8 +127,8 @@ inline Picture session_picture(Hosted& host) {
     p.depth.resize(std::size_t(p.width) * p.height);
     auto frame = cleared<pileus_frame>();
     frame.colour = p.rgba.data();
-    frame.format = PILEUS_RGBA32F;
-    frame.blend = PILEUS_MEDIA;
+    frame.format = PILEUS_FORMAT_RGBA32F;
+    frame.blend = PILEUS_BLEND_MEDIA;
     frame.depth = p.depth.data();
     host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
     return p;

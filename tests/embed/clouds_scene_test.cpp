@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many clouds from a scene's text have the pictures of the same calls of pileus_clouds.h.
+// Many clouds from a scene's text have the pictures of the same calls of pileus.h.
 // in: small skies -> out: checks.
 // docs/clouds.md, "In a scene file"
 #include "src/clouds/render_clouds.h"

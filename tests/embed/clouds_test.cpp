@@ -26,7 +26,7 @@ TEST_CASE("clouds: one that stands where its kind was made is the session's clou
         const Overrides name{std::string("method.name=") + method};
         CloudySky one({at(0, 0, 0)}, name);
         Hosted whole(kSmallCumulus, add(kMarch, name));
-        CHECK(relative_error(one.draw(PILEUS_MEDIA), session_picture(whole)) < 1e-6);
+        CHECK(relative_error(one.draw(PILEUS_BLEND_MEDIA), session_picture(whole)) < 1e-6);
         CHECK(one.stats().marched == 1);
     }
 }
@@ -43,7 +43,7 @@ TEST_CASE("clouds: methods with photons and paths show the session's cloud withi
         CloudySky one({at(0, 0, 0)}, name);
         Hosted whole(kSmallCumulus, add(kMarch, name));
         whole.step(whole.whole());
-        CHECK(relative_error(one.draw(PILEUS_MEDIA), session_picture(whole)) < row.most);
+        CHECK(relative_error(one.draw(PILEUS_BLEND_MEDIA), session_picture(whole)) < row.most);
     }
 }
 
@@ -52,13 +52,13 @@ TEST_CASE(
     "same") {
     CloudySky plain({at(0, 0, 0)});
     plain.sky.sun(120, 35);
-    const Picture first = plain.draw(PILEUS_MEDIA);
+    const Picture first = plain.draw(PILEUS_BLEND_MEDIA);
     // Counter-clockwise by 90: x to y, an azimuth 90 less.
     CloudySky turned({at(0, 0, 0, 90)});
     turned.sky.sun(30, 35);
     const double position[3] = {4000, 16, 256}, target[3] = {0, 0, 1024};
     turned.sky.aim(position, target, 40, 24, 14);
-    CHECK(relative_error(turned.draw(PILEUS_MEDIA), first) < 1e-4);
+    CHECK(relative_error(turned.draw(PILEUS_BLEND_MEDIA), first) < 1e-4);
     CloudySky large({at(0, 0, -1024, 0, 2)});
     const double far[3] = {32, -8000, -512}, to[3] = {0, 0, 1024};
     auto ground = cleared<pileus_ground>();
@@ -67,7 +67,7 @@ TEST_CASE(
     ground.albedo = 0.25;
     large.sky.check(pileus_session_set_ground(large.sky.session.get(), &ground, &large.out.error));
     large.sky.aim(far, to, 40, 24, 14);
-    CHECK(relative_error(large.draw(PILEUS_MEDIA), first) < 1e-6);
+    CHECK(relative_error(large.draw(PILEUS_BLEND_MEDIA), first) < 1e-6);
 }
 
 TEST_CASE("clouds: depths are where half of the light is gone, in metres of the world") {
@@ -90,7 +90,7 @@ TEST_CASE("clouds: a cloud before the sun darkens another, and the ground below 
                              "medium.0.extinction_per_m=0.0625"};
     CloudySky alone({at(0, 0, 0)}, by_paths), shaded({at(0, 0, 0), at(3000, 0, 3000)}, by_paths);
     for (CloudySky* s : {&alone, &shaded}) s->sky.sun(90, 45);
-    const Picture lit = alone.draw(PILEUS_MEDIA), dark = shaded.draw(PILEUS_MEDIA);
+    const Picture lit = alone.draw(PILEUS_BLEND_MEDIA), dark = shaded.draw(PILEUS_BLEND_MEDIA);
     // Two media in one scene by paths, 256 a pixel: what is left of R, G and B of the cloud's
     // middle.
     const double paths[3] = {0.626, 0.681, 0.799};
@@ -180,7 +180,8 @@ TEST_CASE("clouds: a picture gives way to the next without a jump") {
         const double away = 1870 - 6.0 * (frame < 20 ? frame : 39 - frame);
         const double from[3] = {0, -away, 1024}, to[3] = {0, 0, 1024};
         for (CloudySky* s : {&quick, &whole}) s->sky.aim(from, to, 60, 48, 28);
-        const double share = quick.draw(PILEUS_MEDIA).sum(1) / whole.draw(PILEUS_MEDIA).sum(1);
+        const double share =
+            quick.draw(PILEUS_BLEND_MEDIA).sum(1) / whole.draw(PILEUS_BLEND_MEDIA).sum(1);
         marched += quick.stats().marched;
         // A picture of 48 by 28 pixels, read between its texels.
         CHECK(std::fabs(share - 1) < 0.03);
@@ -202,7 +203,7 @@ TEST_CASE("clouds: marched pixels stay where they are in the picture while a clo
             const double from[3] = {16, -4000, 256}, to[3] = {0, 0, 1024};
             s->sky.aim(from, to, 60, 48, 40);
         }
-        const Picture a = thinned.draw(PILEUS_MEDIA), b = whole.draw(PILEUS_MEDIA);
+        const Picture a = thinned.draw(PILEUS_BLEND_MEDIA), b = whole.draw(PILEUS_BLEND_MEDIA);
         CHECK(thinned.stats().marched == 1);
         // Alpha where pixels are marched, the third of each four, and between them.
         double marched = 0, between = 0;

@@ -28,7 +28,7 @@ std::vector<float> picture(Hosted& host, const double (&from)[3], const double (
     std::vector<float> pixels(std::size_t(4) * kWidth * kHeight);
     auto frame = cleared<pileus_frame>();
     frame.colour = pixels.data();
-    frame.format = PILEUS_RGBA32F;
+    frame.format = PILEUS_FORMAT_RGBA32F;
     host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
     return pixels;
 }

@@ -48,7 +48,7 @@ TEST_CASE("hand-over: what is refused leaves the session as it was") {
           "hand_over: frames: 10001, allowed: 0 to 10000");
     CHECK(now.refused(threaded.session.get()).find("next has 3 threads, allowed: ") !=
           std::string::npos);
-    CHECK(pileus_session_hand_over(nullptr, next.session.get(), 2, nullptr) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_hand_over(nullptr, next.session.get(), 2, nullptr) == PILEUS_ERROR_INPUT);
     CHECK(now.hash() == hash);
     CHECK(next.hash() == Living(later(way)).hash());
 }
@@ -150,7 +150,7 @@ TEST_CASE("hand-over: particles that move, from a host's memory") {
         Pixels made(16 * 12 * 4);
         auto frame = cleared<pileus_frame>();
         frame.colour = made.data();
-        frame.format = PILEUS_RGBA32F;
+        frame.format = PILEUS_FORMAT_RGBA32F;
         REQUIRE(pileus_session_render(session.get(), &frame, &out.error) == PILEUS_OK);
         return made;
     };

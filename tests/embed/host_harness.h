@@ -33,6 +33,13 @@ T cleared() {
     return made;
 }
 
+/// What struct_size of a struct of so many bytes holds.
+inline std::uint32_t marked(std::size_t bytes) {
+    std::uint32_t least = 0;
+    PILEUS_INIT(least);
+    return (least & 0xffff0000u) | std::uint32_t(bytes);
+}
+
 /// A code and the line beside it.
 struct Outcome {
     pileus_error error = cleared<pileus_error>();
@@ -99,8 +106,8 @@ struct Hosted {
         return done;
     }
     std::uint32_t whole() {
-        auto light = cleared<pileus_light_info>();
-        check(pileus_session_light(session.get(), &light, &out.error));
+        auto light = cleared<pileus_progress>();
+        check(pileus_session_progress(session.get(), &light, &out.error));
         return light.whole;
     }
     std::string hash() {

@@ -57,7 +57,7 @@ pileus_code draw(const char* name, const pileus_host* lent, std::string* hash = 
     auto frame = cleared<pileus_frame>();
     std::uint64_t digest = 0;
     frame.colour = pixels.data();
-    frame.format = PILEUS_RGBA32F;
+    frame.format = PILEUS_FORMAT_RGBA32F;
     frame.depth = depth.data();
     frame.hash = &digest;
     const pileus_code drawn = pileus_session_render(host.session.get(), &frame, &host.out.error);
@@ -91,7 +91,7 @@ TEST_CASE("hosts: memory that ends at any moment is a code, and nothing is leake
             CountedMemory memory;
             memory.fails_at = at;
             const pileus_host host = memory.host();
-            CHECK(draw(name, &host) == PILEUS_LIMIT);
+            CHECK(draw(name, &host) == PILEUS_ERROR_LIMIT);
             CHECK(memory.held == 0);
         }
     }

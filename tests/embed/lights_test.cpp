@@ -55,27 +55,27 @@ position_m = [100, -250, 1200]
 intensity = [60000, 40000, 20000]
 )";
 
-std::vector<pileus_light> lights() {
-    std::vector<pileus_light> all(3, cleared<pileus_light>());
+std::vector<pileus_lamp> lights() {
+    std::vector<pileus_lamp> all(3, cleared<pileus_lamp>());
     const double spot[3] = {-1500, -900, 2000}, way[3] = {1, 0.5, -0.5};
     const double point[3] = {100, -250, 1200};
     const float colours[3][3] = {
         {100000, 300000, 200000}, {0.25f, 0.5f, 0.75f}, {60000, 40000, 20000}};
     for (std::size_t i = 0; i < 3; ++i) std::memcpy(all[i].light, colours[i], sizeof colours[i]);
-    all[0].type = PILEUS_SPOT;
+    all[0].type = PILEUS_LAMP_SPOT;
     std::memcpy(all[0].position_m, spot, sizeof spot);
     std::memcpy(all[0].direction, way, sizeof way);
     all[0].cone_deg = 60, all[0].penumbra_deg = 6, all[0].radius_m = 2;
-    all[1].type = PILEUS_DIRECTIONAL;
+    all[1].type = PILEUS_LAMP_DIRECTIONAL;
     all[1].azimuth_deg = 120, all[1].elevation_deg = 35;
-    all[2].type = PILEUS_POINT;
+    all[2].type = PILEUS_LAMP_POINT;
     std::memcpy(all[2].position_m, point, sizeof point);
     return all;
 }
 
-void set(Hosted& host, const std::vector<pileus_light>& all) {
-    host.check(pileus_session_set_lights(host.session.get(), all.data(), std::uint32_t(all.size()),
-                                         &host.out.error));
+void set(Hosted& host, const std::vector<pileus_lamp>& all) {
+    host.check(pileus_session_set_lamps(host.session.get(), all.data(), std::uint32_t(all.size()),
+                                        &host.out.error));
 }
 
 }  // namespace
@@ -158,24 +158,24 @@ TEST_CASE("lights of a host: places on spheres") {
         }
         auto all = lights();
         all[0].shadow_samples = 65;
-        CHECK(pileus_session_set_lights(host.session.get(), all.data(), 3, &host.out.error) ==
-              PILEUS_BAD_INPUT);
+        CHECK(pileus_session_set_lamps(host.session.get(), all.data(), 3, &host.out.error) ==
+              PILEUS_ERROR_INPUT);
         CHECK(std::string(host.out.error.message)
                   .find("light.shadow_samples: 65, allowed: 0 to 64") != std::string::npos);
         // Programs that were built before the field have padding at its end.
         struct Shorter {
-            alignas(8) unsigned char bytes[offsetof(pileus_light, shadow_samples)];
+            alignas(8) unsigned char bytes[offsetof(pileus_lamp, shadow_samples)];
         };
         Shorter older[3];
         for (std::size_t i = 0; i < 3; ++i) {
-            pileus_light light = lights()[i];
-            light.struct_size = sizeof(Shorter);
+            pileus_lamp light = lights()[i];
+            light.struct_size = marked(sizeof(Shorter));
             light.reserved = 0xffffffffu;
             if (i == 0) light.radius_m = 300;
             std::memcpy(&older[i], &light, sizeof(Shorter));
         }
-        host.check(pileus_session_set_lights(
-            host.session.get(), reinterpret_cast<const pileus_light*>(older), 3, &host.out.error));
+        host.check(pileus_session_set_lamps(
+            host.session.get(), reinterpret_cast<const pileus_lamp*>(older), 3, &host.out.error));
         host.step(host.whole());
         CHECK(host.hash() == program_hashes(scene_for(method, text("")), with(method))[0]);
     }

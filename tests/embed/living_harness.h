@@ -57,7 +57,7 @@ struct Living : Hosted {
         Pixels made(std::size_t(width) * height * 4);
         auto frame = cleared<pileus_frame>();
         frame.colour = made.data();
-        frame.format = PILEUS_RGBA32F;
+        frame.format = PILEUS_FORMAT_RGBA32F;
         check(pileus_session_render(session.get(), &frame, &out.error));
         return made;
     }
@@ -74,7 +74,7 @@ struct Living : Hosted {
     /// The line of a hand-over that is refused.
     std::string refused(pileus_session* next, std::uint32_t frames = 4) {
         const pileus_code got = pileus_session_hand_over(session.get(), next, frames, &out.error);
-        CHECK(got == PILEUS_BAD_INPUT);
+        CHECK(got == PILEUS_ERROR_INPUT);
         return out.line();
     }
 };

@@ -93,7 +93,7 @@ private:
     void note(pileus_code code) {
         if (code == PILEUS_OK) return;
         CHECK_FALSE(out_.line().empty());
-        if (code != PILEUS_LIMIT) return;
+        if (code != PILEUS_ERROR_LIMIT) return;
         ++failures_;
         CHECK_MESSAGE(out_.line().find("out of memory") != std::string::npos, out_.line());
     }
@@ -102,7 +102,7 @@ private:
     void call(Call once) {
         pileus_code code = once(session_.get(), &out_.error);
         note(code);
-        if (code == PILEUS_LIMIT) code = once(session_.get(), &out_.error);
+        if (code == PILEUS_ERROR_LIMIT) code = once(session_.get(), &out_.error);
         codes_.push_back(code);
     }
     void draw(std::uint32_t units, std::uint32_t format, bool deep) {
@@ -137,9 +137,9 @@ private:
 };
 
 void Life::live() {
-    auto light = cleared<pileus_light_info>();
-    REQUIRE(pileus_session_light(session_.get(), &light, &out_.error) == PILEUS_OK);
-    draw(light.whole, PILEUS_RGBA8_SRGB, false);
+    auto light = cleared<pileus_progress>();
+    REQUIRE(pileus_session_progress(session_.get(), &light, &out_.error) == PILEUS_OK);
+    draw(light.whole, PILEUS_FORMAT_RGBA8_SRGB, false);
     // Another size, place and sun.
     auto camera = cleared<pileus_camera>();
     camera.position_m[0] = 100, camera.position_m[1] = -4000, camera.position_m[2] = 1400;
@@ -155,7 +155,7 @@ void Life::live() {
     });
     call([&](pileus_session* s, pileus_error* e) { return pileus_session_set_sun(s, &sun, e); });
     call([&](pileus_session* s, pileus_error* e) { return pileus_session_set_frame(s, 1, e); });
-    draw(light.whole, PILEUS_RGBA32F, true);
+    draw(light.whole, PILEUS_FORMAT_RGBA32F, true);
     // Opaque things in front, a sky of a picture, lamps; then the media elsewhere.
     const std::vector<float> metres(std::size_t(kWidth + 3) * (kHeight + 1), 4100.0f);
     auto depth = cleared<pileus_depth_image>();
@@ -164,23 +164,25 @@ void Life::live() {
         [&](pileus_session* s, pileus_error* e) { return pileus_session_set_depth(s, &depth, e); });
     std::vector<float> texels(8 * 4 * 3, 0.5f);
     texels[20] = 4;
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     sky.present = 1;
     sky.map_size[0] = 8, sky.map_size[1] = 4;
     sky.map = texels.data();
-    call([&](pileus_session* s, pileus_error* e) { return pileus_session_set_sky(s, &sky, e); });
-    pileus_light lamps[2] = {cleared<pileus_light>(), cleared<pileus_light>()};
-    for (pileus_light& lamp : lamps) {
+    call([&](pileus_session* s, pileus_error* e) {
+        return pileus_session_set_environment(s, &sky, e);
+    });
+    pileus_lamp lamps[2] = {cleared<pileus_lamp>(), cleared<pileus_lamp>()};
+    for (pileus_lamp& lamp : lamps) {
         for (float& c : lamp.light) c = 1e6f;
         lamp.position_m[1] = -900, lamp.position_m[2] = 1600;
     }
-    lamps[1].type = PILEUS_DIRECTIONAL;
+    lamps[1].type = PILEUS_LAMP_DIRECTIONAL;
     for (float& c : lamps[1].light) c = 1;
     lamps[1].elevation_deg = 50;
     call([&](pileus_session* s, pileus_error* e) {
-        return pileus_session_set_lights(s, lamps, 2, e);
+        return pileus_session_set_lamps(s, lamps, 2, e);
     });
-    draw(light.whole, PILEUS_RGBA8_SRGB, false);
+    draw(light.whole, PILEUS_FORMAT_RGBA8_SRGB, false);
     sky.map_size[0] = sky.map_size[1] = 0;
     sky.radiance[1] = 0.5f;
     auto placement = cleared<pileus_placement>();
@@ -188,12 +190,14 @@ void Life::live() {
     placement.yaw_deg = 20;
     auto work = cleared<pileus_work>();
     work.scale = 2;
-    call([&](pileus_session* s, pileus_error* e) { return pileus_session_set_sky(s, &sky, e); });
+    call([&](pileus_session* s, pileus_error* e) {
+        return pileus_session_set_environment(s, &sky, e);
+    });
     call([&](pileus_session* s, pileus_error* e) {
         return pileus_session_set_placement(s, &placement, e);
     });
     call([&](pileus_session* s, pileus_error* e) { return pileus_session_set_work(s, &work, e); });
-    draw(light.whole, PILEUS_RGBA16F, false);
+    draw(light.whole, PILEUS_FORMAT_RGBA16F, false);
 }
 
 /// Has memory end at `most` allocations of a session, a sixtieth of them in the plain form,

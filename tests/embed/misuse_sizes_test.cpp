@@ -27,7 +27,7 @@ struct Refusals {
 
     void refused(pileus_code code, const char* word) {
         CAPTURE(word);
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         const std::string line = host.out.line();
         CHECK_MESSAGE(line.find(word) != std::string::npos, line);
         CHECK_MESSAGE(line.find("allowed") != std::string::npos, line);
@@ -69,12 +69,12 @@ std::function<void(Struct&, double)> member(Number (Struct::*at)[N], std::size_t
 TEST_CASE("misuse: sizes of a sky map, none of which is looked at alone") {
     Refusals r;
     const std::vector<float> texels(3 * 4 * 2, 0.5f);
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     sky.present = 1;
     const auto set = [&](std::uint32_t columns, std::uint32_t rows, const float* map) {
         sky.map_size[0] = columns, sky.map_size[1] = rows;
         sky.map = map;
-        return pileus_session_set_sky(r.s, &sky, r.e);
+        return pileus_session_set_environment(r.s, &sky, r.e);
     };
     const std::uint32_t sizes[][2] = {{2, 0},
                                       {0, 2},
@@ -114,10 +114,10 @@ TEST_CASE("misuse: sizes of a sky map, none of which is looked at alone") {
     sky.map_rotation_deg = 0;
     for (int c = 0; c < 3; ++c)
         for (const double wrong : {kNone, kEndless, -1e-30}) {
-            auto plain = cleared<pileus_sky>();
+            auto plain = cleared<pileus_environment>();
             plain.present = 1;
             plain.radiance[c] = float(wrong);
-            r.refused(pileus_session_set_sky(r.s, &plain, r.e), "sky.radiance");
+            r.refused(pileus_session_set_environment(r.s, &plain, r.e), "sky.radiance");
         }
 }
 
@@ -204,11 +204,11 @@ TEST_CASE("misuse: numbers of cameras, suns, grounds and places") {
 
 TEST_CASE("misuse: lights one by one, and as an array") {
     Refusals r;
-    using L = pileus_light;
-    const auto set = [&](const L& light) { return pileus_session_set_lights(r.s, &light, 1, r.e); };
-    const auto all_off = [&] { r.host.check(pileus_session_set_lights(r.s, nullptr, 0, r.e)); };
+    using L = pileus_lamp;
+    const auto set = [&](const L& light) { return pileus_session_set_lamps(r.s, &light, 1, r.e); };
+    const auto all_off = [&] { r.host.check(pileus_session_set_lamps(r.s, nullptr, 0, r.e)); };
     auto light = cleared<L>();
-    light.type = PILEUS_SPOT;
+    light.type = PILEUS_LAMP_SPOT;
     light.position_m[2] = 3000, light.direction[2] = -1, light.cone_deg = 40,
     light.penumbra_deg = 5;
     light.radius_m = 1;
@@ -218,22 +218,24 @@ TEST_CASE("misuse: lights one by one, and as an array") {
                   member(&L::direction, 0), member(&L::direction, 1), member(&L::direction, 2),
                   member(&L::cone_deg), member(&L::penumbra_deg), member(&L::radius_m),
                   member(&L::light, 0), member(&L::light, 1), member(&L::light, 2)});
-    light.type = PILEUS_DIRECTIONAL;
+    light.type = PILEUS_LAMP_DIRECTIONAL;
     r.numbers<L>(light, "light.", set,
                  {member(&L::azimuth_deg), member(&L::elevation_deg), member(&L::light, 0),
                   member(&L::light, 1), member(&L::light, 2)});
     light.type = kHuge;
     r.refused(set(light), "light.type: ");
-    light.type = PILEUS_POINT;
+    light.type = PILEUS_LAMP_POINT;
     light.shadow_samples = kMax;
     r.refused(set(light), "light.shadow_samples: ");
     light.shadow_samples = 0;
     std::vector<L> three(3, light);
-    r.refused(pileus_session_set_lights(r.s, nullptr, 3, r.e), "lights: null");
-    r.refused(pileus_session_set_lights(r.s, three.data(), kMax, r.e), "lights: ");
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof(L)) - 8, kHuge, kMax}) {
+    r.refused(pileus_session_set_lamps(r.s, nullptr, 3, r.e), "lights: null");
+    r.refused(pileus_session_set_lamps(r.s, three.data(), kMax, r.e), "lights: ");
+    for (const std::uint32_t size :
+         {0u, 3u, std::uint32_t(sizeof(L)), marked(sizeof(L) - 8), kHuge, kMax}) {
         three[2].struct_size = size;
-        r.refused(pileus_session_set_lights(r.s, three.data(), 3, r.e), "lights[2]: struct_size");
+        r.refused(pileus_session_set_lamps(r.s, three.data(), 3, r.e),
+                  "lights[2]: not initialised");
     }
     all_off();
 }
@@ -248,7 +250,8 @@ TEST_CASE("misuse: rows of pictures and depths, and what is drawn into them") {
         auto depth = cleared<pileus_depth_image>();
         depth.values = pixels.data(), depth.stride = stride;
         r.refused(pileus_session_set_depth(r.s, &depth, r.e), "depth.stride: ");
-        for (const std::uint32_t format : {PILEUS_RGBA8_SRGB, PILEUS_RGBA16F, PILEUS_RGBA32F}) {
+        for (const std::uint32_t format :
+             {PILEUS_FORMAT_RGBA8_SRGB, PILEUS_FORMAT_RGBA16F, PILEUS_FORMAT_RGBA32F}) {
             auto frame = cleared<pileus_frame>();
             frame.colour = pixels.data(), frame.colour_stride = stride, frame.format = format;
             r.refused(pileus_session_render(r.s, &frame, r.e), "frame.colour.stride: ");
@@ -274,7 +277,7 @@ TEST_CASE("misuse: rows of pictures and depths, and what is drawn into them") {
     char text[8];
     std::size_t needed = 0;
     r.refused(pileus_session_report(r.s, nullptr, 8, &needed, r.e), "text: null");
-    CHECK(pileus_session_report(r.s, text, sizeof text, nullptr, r.e) == PILEUS_LIMIT);
+    CHECK(pileus_session_report(r.s, text, sizeof text, nullptr, r.e) == PILEUS_ERROR_LIMIT);
 }
 
 TEST_CASE("misuse: work, costs and the governor's own numbers") {
@@ -286,7 +289,7 @@ TEST_CASE("misuse: work, costs and the governor's own numbers") {
             work.*at = wrong;
             r.refused(pileus_session_set_work(r.s, &work, r.e), ": ");
             auto most = cleared<pileus_units>();
-            CHECK(pileus_session_most_units(r.s, &work, &most, r.e) != PILEUS_LIMIT);
+            CHECK(pileus_session_most_units(r.s, &work, &most, r.e) != PILEUS_ERROR_LIMIT);
         }
     for (const std::uint64_t wrong : {std::uint64_t{1}, std::uint64_t{1} << 63, UINT64_MAX}) {
         auto work = cleared<W>();

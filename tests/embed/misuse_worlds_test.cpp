@@ -40,7 +40,7 @@ TEST_CASE("misuse: densities and particles of a world") {
         CAPTURE(word);
         pileus_world* world = nullptr;
         CHECK(pileus_world_create(scene.get(), nullptr, given.data(), count, &world, &out.error) ==
-              PILEUS_BAD_INPUT);
+              PILEUS_ERROR_INPUT);
         CHECK(world == nullptr);
         CHECK_MESSAGE(out.line().find(word) != std::string::npos, out.line());
     };
@@ -74,10 +74,11 @@ TEST_CASE("misuse: densities and particles of a world") {
     refused({sound}, 3, "density_count: 3, allowed: 0 to 2");
     refused({sound}, kMax, "density_count: ");
     refused({}, 1, "densities: null");
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof given) + 8, kMax}) {
+    for (const std::uint32_t size :
+         {0u, 3u, std::uint32_t(sizeof given), marked(sizeof given + 8), kMax}) {
         given = sound;
         given.struct_size = size;
-        refused({sound, given}, 2, "densities[1]: struct_size");
+        refused({sound, given}, 2, "densities[1]: not initialised");
     }
 
     const std::vector<float> numbers(64, 1.0f);
@@ -118,7 +119,7 @@ TEST_CASE("misuse: densities and particles of a world") {
     wrong(own, "radius: missing");
     own = cloud;
     own.struct_size = 0;
-    wrong(own, "particles: null or without struct_size");
+    wrong(own, "particles: null or not initialised");
 }
 
 TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
@@ -130,7 +131,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
     auto figures = cleared<pileus_figures>();
     const auto refused = [&](pileus_code code, const char* word) {
         CAPTURE(word);
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(out.line().find(word) != std::string::npos, out.line());
     };
     const struct {
@@ -149,7 +150,7 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
         {"stride: ", [](P& p) { p.stride = 1; }},
         {"stride: ", [](P& p) { p.stride = -48; }},
         {"stride: ", [](P& p) { p.stride = INT64_MAX; }},
-        {"without struct_size", [](P& p) { p.struct_size = 0; }},
+        {"not initialised", [](P& p) { p.struct_size = 0; }},
     };
     for (const auto& row : rows) {
         P given = sound;
@@ -185,9 +186,10 @@ TEST_CASE("misuse: two pictures to compare, what a host lends, and clouds") {
     const auto place = [&](std::uint32_t count) {
         return pileus_clouds_place(clouds, two.data(), count, &out.error);
     };
-    for (const std::uint32_t size : {0u, 3u, std::uint32_t(sizeof two[0]) - 8, kMax}) {
+    for (const std::uint32_t size :
+         {0u, 3u, std::uint32_t(sizeof two[0]), marked(sizeof two[0] - 8), kMax}) {
         two[1].struct_size = size;
-        refused(place(2), "places[1]: struct_size");
+        refused(place(2), "places[1]: not initialised");
     }
     two[1] = at(0, 0, 0);
     refused(place(kMax), "count: ");

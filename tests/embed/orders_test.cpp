@@ -8,7 +8,6 @@
 #include <map>
 
 #include "include/pileus/pileus.h"
-#include "include/pileus/pileus_living.h"
 #include "tests/embed/clouds_harness.h"
 
 using namespace clouds_test;

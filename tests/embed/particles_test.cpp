@@ -137,7 +137,7 @@ TEST_CASE("particles of a host: a world of them is for the methods that it was m
         REQUIRE(world_of(turned ? marched : shown, particles_of(made), out, world) == PILEUS_OK);
         pileus_session* session = nullptr;
         CHECK(pileus_session_create(world.get(), (turned ? shown : marched).get(), nullptr,
-                                    &session, &out.error) == PILEUS_BAD_INPUT);
+                                    &session, &out.error) == PILEUS_ERROR_INPUT);
         CHECK(session == nullptr);
         CHECK(out.line().find("a world made for it") != std::string::npos);
     }
@@ -161,7 +161,7 @@ TEST_CASE("particles of a host: none, one, and what is wrong says so") {
 
     const auto refused = [&](const pileus_particles& given, const char* line,
                              std::uint32_t medium = 0) {
-        CHECK(world_of(scene, given, out, world, medium) == PILEUS_BAD_INPUT);
+        CHECK(world_of(scene, given, out, world, medium) == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(out.line().find(line) != std::string::npos, out.line());
         CHECK(world == nullptr);
     };
@@ -187,7 +187,7 @@ TEST_CASE("particles of a host: none, one, and what is wrong says so") {
         "[camera]\nposition_m = [0, -300, 50]\ntarget_m = [0, 0, 50]\n[[medium]]\n"
         "density = \"uniform:box\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\nextinction_per_m = 1\n",
         {});
-    CHECK(world_of(box, particles_of(puffs(3)), out, world) == PILEUS_BAD_INPUT);
+    CHECK(world_of(box, particles_of(puffs(3)), out, world) == PILEUS_ERROR_INPUT);
     CHECK(out.line().find("no file of particles") != std::string::npos);
 }
 

@@ -19,10 +19,9 @@ using pileus::KeyRow;
 struct Given {
     pileus_camera camera = cleared<pileus_camera>();
     pileus_sun sun = cleared<pileus_sun>();
-    pileus_sky sky = cleared<pileus_sky>();
+    pileus_environment sky = cleared<pileus_environment>();
     pileus_ground ground = cleared<pileus_ground>();
-    pileus_light light[3] = {cleared<pileus_light>(), cleared<pileus_light>(),
-                             cleared<pileus_light>()};
+    pileus_lamp light[3] = {cleared<pileus_lamp>(), cleared<pileus_lamp>(), cleared<pileus_lamp>()};
     pileus_work work = cleared<pileus_work>();
     pileus_density density = cleared<pileus_density>();
     pileus_cloud place = at(0, 0, 0);
@@ -44,9 +43,9 @@ struct Given {
         if (of("camera")) return pileus_session_set_camera(session, &camera, e);
         if (of("sun")) return pileus_session_set_sun(session, &sun, e);
         if (of("sky.map")) sky.map_size[0] = 4, sky.map_size[1] = 2, sky.map = map.data();
-        if (of("sky")) return pileus_session_set_sky(session, &sky, e);
+        if (of("sky")) return pileus_session_set_environment(session, &sky, e);
         if (of("ground")) return pileus_session_set_ground(session, &ground, e);
-        if (of("light")) return pileus_session_set_lights(session, light, 3, e);
+        if (of("light")) return pileus_session_set_lamps(session, light, 3, e);
         if (of("raymarch")) return pileus_session_set_work(session, &work, e);
         if (of("clouds.place")) return pileus_clouds_place(s.clouds.get(), &place, 1, e);
         if (of("clouds")) return pileus_clouds_set_detail(s.clouds.get(), &detail, e);
@@ -148,7 +147,7 @@ TEST_CASE("each number of a host's structs has the range of its key, and its wor
             if (count && v <= 0) continue;
             Given given;
             number.put(given, v);
-            CHECK(given.set(number.key, s, &s.out.error) == PILEUS_BAD_INPUT);
+            CHECK(given.set(number.key, s, &s.out.error) == PILEUS_ERROR_INPUT);
             const std::string words = number.text != nullptr
                                           ? line_of(number.key, number.text, v)
                                           : " to " + pileus::end_words(row.allowed.range.high);

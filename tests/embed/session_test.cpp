@@ -115,10 +115,10 @@ TEST_CASE("sessions: what was set and set back leaves no trace") {
         placement.offset_m[0] = 500;
         placement.yaw_deg = 33;
         host.check(pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
-        auto sky = cleared<pileus_sky>();
+        auto sky = cleared<pileus_environment>();
         sky.present = 1;
         sky.radiance[1] = 2;
-        host.check(pileus_session_set_sky(host.session.get(), &sky, &host.out.error));
+        host.check(pileus_session_set_environment(host.session.get(), &sky, &host.out.error));
         std::vector<float> depth(31 * 7, 100.0f);
         auto image = cleared<pileus_depth_image>();
         image.values = depth.data();
@@ -133,7 +133,7 @@ TEST_CASE("sessions: what was set and set back leaves no trace") {
         sky.radiance[0] = 0.0625f;
         sky.radiance[1] = 0.125f;
         sky.radiance[2] = 0.25f;
-        host.check(pileus_session_set_sky(host.session.get(), &sky, &host.out.error));
+        host.check(pileus_session_set_environment(host.session.get(), &sky, &host.out.error));
         host.aim(kPosition, kTarget, 40, 24, 14);
         if (std::string(method) == "collectors") continue;  // its ring holds other generations now
         host.step(whole);
@@ -185,8 +185,8 @@ TEST_CASE("sessions: lights that come and go") {
     host.sun(120, 35);
     host.step(whole);
     CHECK(host.stats().prepared == 2);
-    auto light = cleared<pileus_light_info>();
-    host.check(pileus_session_light(host.session.get(), &light, &host.out.error));
+    auto light = cleared<pileus_progress>();
+    host.check(pileus_session_progress(host.session.get(), &light, &host.out.error));
     CHECK(light.units == whole);
     CHECK(std::string(light.unit) == "generation");
 }
@@ -281,7 +281,7 @@ name = "raymarch"
     pileus_world* world = nullptr;
     Outcome out;
     CHECK(pileus_world_create(scene.get(), nullptr, &density, 1, &world, &out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(out.line() == "densities[0]: cell 5: -1.000000, allowed: finite and not negative");
     CHECK(world == nullptr);
 }

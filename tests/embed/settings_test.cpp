@@ -44,8 +44,8 @@ public:
         int turn = 0;
         const pileus_code code = both([&](pileus_session* s, pileus_error* e) {
             const int i = turn++;
-            auto light = cleared<pileus_light_info>();
-            pileus_code got = pileus_session_light(s, &light, e);
+            auto light = cleared<pileus_progress>();
+            pileus_code got = pileus_session_progress(s, &light, e);
             if (got == PILEUS_OK) got = pileus_session_step(s, light.whole, nullptr, e);
             if (got != PILEUS_OK) return got;
             const std::size_t pixels = std::size_t(width_) * height_;
@@ -55,7 +55,7 @@ public:
             frame.format = format;
             frame.blend = format;
             // Without depth and hash first, as rows of bytes that are finished one by one.
-            if (format == PILEUS_RGBA8_SRGB) got = pileus_session_render(s, &frame, e);
+            if (format == PILEUS_FORMAT_RGBA8_SRGB) got = pileus_session_render(s, &frame, e);
             if (got != PILEUS_OK) return got;
             frame.depth = flux_ ? nullptr : depths[i].data();
             frame.hash = &hashes[i];
@@ -110,12 +110,12 @@ void look_around(const pileus_camera& start, Pair& pair) {
         return camera;
     };
     pair.see(from(0, -100, 1000, 1024));  // within the media
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     pair.see(from(0, 0, 4000, 0));  // along its own up
     auto down = from(0, 0, 4000, 0);
     down.up[1] = 1, down.up[2] = 0;
     pair.see(down);
-    pair.draw(PILEUS_RGBA16F);
+    pair.draw(PILEUS_FORMAT_RGBA16F);
     auto flat = from(1500, -3500, 1400, 1000);
     if (flat.height_m > 0)
         flat.height_m = 0;
@@ -123,9 +123,9 @@ void look_around(const pileus_camera& start, Pair& pair) {
         flat.height_m = 1800;
     flat.width = 7, flat.height = 3;
     pair.see(flat);
-    pair.draw(PILEUS_RGBA8_SRGB);
+    pair.draw(PILEUS_FORMAT_RGBA8_SRGB);
     pair.see(from(-3000, 200, 90, 2500));  // from below, the sky behind
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     pair.see(start);
 }
 
@@ -136,7 +136,7 @@ void change_sun(Pair& pair) {
             [&](pileus_session* s, pileus_error* e) { return pileus_session_set_sun(s, &sun, e); });
     };
     set();
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     sun.present = 1;
     sun.azimuth_deg = -30;
     for (const double elevation : {-5.0, 0.0, 90.0, 25.0}) {
@@ -144,16 +144,17 @@ void change_sun(Pair& pair) {
         for (std::size_t c = 0; c < 3; ++c)
             sun.irradiance[c] = elevation > 80 ? 1.0f - 0.25f * float(c) : 1.0f;
         set();
-        pair.draw(PILEUS_RGBA8_SRGB);
+        pair.draw(PILEUS_FORMAT_RGBA8_SRGB);
     }
 }
 
 void change_surroundings(Pair& pair) {
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     auto ground = cleared<pileus_ground>();
     const auto set_sky = [&] {
-        pair.both(
-            [&](pileus_session* s, pileus_error* e) { return pileus_session_set_sky(s, &sky, e); });
+        pair.both([&](pileus_session* s, pileus_error* e) {
+            return pileus_session_set_environment(s, &sky, e);
+        });
     };
     const auto set_ground = [&] {
         pair.both([&](pileus_session* s, pileus_error* e) {
@@ -162,48 +163,48 @@ void change_surroundings(Pair& pair) {
     };
     set_ground();
     set_sky();
-    pair.draw(PILEUS_RGBA16F);
+    pair.draw(PILEUS_FORMAT_RGBA16F);
     ground.present = 1, ground.albedo = 0.5, ground.altitude_m = -20;
     set_ground();
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     std::vector<float> texels(8 * 4 * 3, 0.5f);
     for (std::size_t i = 0; i < texels.size(); i += 7) texels[i] = 3;
     sky.present = 1;
     sky.map_size[0] = 8, sky.map_size[1] = 4;
     sky.map = texels.data();
     set_sky();
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     sky.map_size[0] = sky.map_size[1] = 0;
     sky.radiance[0] = 0.1f, sky.radiance[1] = 0.2f;
     set_sky();
-    pair.draw(PILEUS_RGBA8_SRGB);
+    pair.draw(PILEUS_FORMAT_RGBA8_SRGB);
 }
 
 void change_more(Pair& pair) {
-    pileus_light lights[3];
-    for (pileus_light& light : lights) {
-        light = cleared<pileus_light>();
+    pileus_lamp lights[3];
+    for (pileus_lamp& light : lights) {
+        light = cleared<pileus_lamp>();
         for (float& c : light.light) c = 2e5f;
         light.position_m[1] = -800, light.position_m[2] = 1300;
     }
     lights[0].radius_m = 90, lights[0].shadow_samples = 3;
-    lights[1].type = PILEUS_SPOT;
+    lights[1].type = PILEUS_LAMP_SPOT;
     lights[1].direction[1] = 1, lights[1].direction[2] = -0.25;
     lights[1].cone_deg = 50, lights[1].penumbra_deg = 10;
-    lights[2].type = PILEUS_DIRECTIONAL;
+    lights[2].type = PILEUS_LAMP_DIRECTIONAL;
     for (std::size_t c = 0; c < 3; ++c) lights[2].light[c] = 0.3f * float(c);
     lights[2].elevation_deg = 70;
     pair.both([&](pileus_session* s, pileus_error* e) {
-        return pileus_session_set_lights(s, lights, 3, e);
+        return pileus_session_set_lamps(s, lights, 3, e);
     });
-    pair.draw(PILEUS_RGBA32F);
+    pair.draw(PILEUS_FORMAT_RGBA32F);
     auto placement = cleared<pileus_placement>();
     placement.offset_m[0] = 300, placement.offset_m[2] = -64, placement.yaw_deg = 40;
     pair.both([&](pileus_session* s, pileus_error* e) {
         return pileus_session_set_placement(s, &placement, e);
     });
     pair.both([](pileus_session* s, pileus_error* e) { return pileus_session_set_frame(s, 3, e); });
-    pair.draw(PILEUS_RGBA8_SRGB);
+    pair.draw(PILEUS_FORMAT_RGBA8_SRGB);
     // Something solid over half of the picture, with faults of a host among its depths.
     std::vector<float> metres(pair.pixels(), 3800.0f);
     for (std::size_t i = 0; i < metres.size() / 2; ++i) metres[i] = __builtin_inff();
@@ -212,7 +213,7 @@ void change_more(Pair& pair) {
     depth.values = metres.data();
     pair.both(
         [&](pileus_session* s, pileus_error* e) { return pileus_session_set_depth(s, &depth, e); });
-    pair.draw(PILEUS_RGBA16F);
+    pair.draw(PILEUS_FORMAT_RGBA16F);
     depth.values = nullptr;
     pair.both(
         [&](pileus_session* s, pileus_error* e) { return pileus_session_set_depth(s, &depth, e); });
@@ -225,13 +226,13 @@ void change_more(Pair& pair) {
             if (work.steps > 1) work.steps = std::uint32_t(double(work.steps) * share);
             return pileus_session_set_work(s, &work, e);
         });
-        pair.draw(PILEUS_RGBA32F);
+        pair.draw(PILEUS_FORMAT_RGBA32F);
     }
 }
 
-/// Every fifth row, or all in the long form, looks around; of the other moves each makes a third.
+/// Every seventh row, or all in the long form, looks around; of the other moves each makes a third.
 void move_about(const std::vector<Row>& rows) {
-    const std::size_t stride = pileus::row_stride(5);
+    const std::size_t stride = pileus::row_stride(7);
     for (std::size_t number = 0; number < rows.size(); number += stride) {
         const Row& row = rows[number];
         const std::size_t kind = number / stride % 3;
@@ -258,7 +259,7 @@ void move_about(const std::vector<Row>& rows) {
         Pair pair(text, all);
         pair.size(std::uint32_t(scene.camera.resolution[0]),
                   std::uint32_t(scene.camera.resolution[1]), scene.camera.flux);
-        CHECK(pair.draw(PILEUS_RGBA32F) != 0);
+        CHECK(pair.draw(PILEUS_FORMAT_RGBA32F) != 0);
         look_around(camera_of(scene), pair);
         // Each sun in the air, and each light of a sky in place, is made anew: tests of theirs move
         // it.

@@ -69,10 +69,10 @@ std::vector<Set> all_sets() {
     sun([](pileus_sun& o, double v) { o.elevation_deg = v; });
     sun([](pileus_sun& o, double v) { o.irradiance[1] = float(v); });
     sets.push_back([](pileus_session* s, double v, pileus_error* e) {
-        auto own = cleared<pileus_sky>();
+        auto own = cleared<pileus_environment>();
         own.present = 1;
         own.radiance[0] = float(v);
-        return pileus_session_set_sky(s, &own, e);
+        return pileus_session_set_environment(s, &own, e);
     });
     for (const bool albedo : {false, true})
         sets.push_back([albedo](pileus_session* s, double v, pileus_error* e) {
@@ -81,26 +81,26 @@ std::vector<Set> all_sets() {
             (albedo ? own.albedo : own.altitude_m) = v;
             return pileus_session_set_ground(s, &own, e);
         });
-    const auto light = [&](std::uint32_t type, std::function<void(pileus_light&, double)> put) {
+    const auto light = [&](std::uint32_t type, std::function<void(pileus_lamp&, double)> put) {
         sets.push_back([type, put](pileus_session* s, double v, pileus_error* e) {
-            auto own = cleared<pileus_light>();
+            auto own = cleared<pileus_lamp>();
             own.type = type;
             own.position_m[2] = 1200;
             own.direction[2] = -1;
             own.cone_deg = 40;
             for (float& c : own.light) c = 1;
             put(own, v);
-            return pileus_session_set_lights(s, &own, 1, e);
+            return pileus_session_set_lamps(s, &own, 1, e);
         });
     };
-    light(PILEUS_POINT, [](pileus_light& o, double v) { o.position_m[0] = v; });
-    light(PILEUS_POINT, [](pileus_light& o, double v) { o.radius_m = v; });
-    light(PILEUS_POINT, [](pileus_light& o, double v) { o.light[2] = float(v); });
-    light(PILEUS_SPOT, [](pileus_light& o, double v) { o.cone_deg = v; });
-    light(PILEUS_SPOT, [](pileus_light& o, double v) { o.penumbra_deg = v; });
-    light(PILEUS_SPOT, [](pileus_light& o, double v) { o.direction[2] = v; });
-    light(PILEUS_SPOT, [](pileus_light& o, double v) { o.direction[0] = v; });
-    light(PILEUS_DIRECTIONAL, [](pileus_light& o, double v) { o.elevation_deg = v; });
+    light(PILEUS_LAMP_POINT, [](pileus_lamp& o, double v) { o.position_m[0] = v; });
+    light(PILEUS_LAMP_POINT, [](pileus_lamp& o, double v) { o.radius_m = v; });
+    light(PILEUS_LAMP_POINT, [](pileus_lamp& o, double v) { o.light[2] = float(v); });
+    light(PILEUS_LAMP_SPOT, [](pileus_lamp& o, double v) { o.cone_deg = v; });
+    light(PILEUS_LAMP_SPOT, [](pileus_lamp& o, double v) { o.penumbra_deg = v; });
+    light(PILEUS_LAMP_SPOT, [](pileus_lamp& o, double v) { o.direction[2] = v; });
+    light(PILEUS_LAMP_SPOT, [](pileus_lamp& o, double v) { o.direction[0] = v; });
+    light(PILEUS_LAMP_DIRECTIONAL, [](pileus_lamp& o, double v) { o.elevation_deg = v; });
     for (const bool yaw : {false, true})
         sets.push_back([yaw](pileus_session* s, double v, pileus_error* e) {
             auto own = cleared<pileus_placement>();
@@ -127,7 +127,7 @@ TEST_CASE("each number that a host sets is refused, or the picture is finite") {
             const pileus_code code = set(host.session.get(), v, &host.out.error);
             if (code != PILEUS_OK) {
                 ++refused;
-                CHECK(code == PILEUS_BAD_INPUT);
+                CHECK(code == PILEUS_ERROR_INPUT);
                 CHECK_MESSAGE(host.out.line().find("allowed: ") != std::string::npos,
                               host.out.line());
                 continue;
@@ -136,7 +136,7 @@ TEST_CASE("each number that a host sets is refused, or the picture is finite") {
             std::vector<float> pixels(8 * 8 * 4);
             auto frame = cleared<pileus_frame>();
             frame.colour = pixels.data();
-            frame.format = PILEUS_RGBA32F;
+            frame.format = PILEUS_FORMAT_RGBA32F;
             host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
             for (const float p : pixels) REQUIRE(std::isfinite(p));
         }

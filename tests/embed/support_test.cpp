@@ -176,17 +176,17 @@ TEST_CASE("support: the air has its sky and a sun, whatever a host sets") {
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
         host.step(1);
         const std::string before = host.hash();
-        auto sky = cleared<pileus_sky>();
+        auto sky = cleared<pileus_environment>();
         for (const std::uint32_t present : {0u, 1u}) {
             sky.present = present;
-            CHECK(pileus_session_set_sky(host.session.get(), &sky, &host.out.error) ==
-                  PILEUS_BAD_INPUT);
+            CHECK(pileus_session_set_environment(host.session.get(), &sky, &host.out.error) ==
+                  PILEUS_ERROR_INPUT);
             CHECK(host.out.line() ==
                   "sky: conflicts with [atmosphere], which has its own, allowed: not set");
         }
         auto sun = cleared<pileus_sun>();
         CHECK(pileus_session_set_sun(host.session.get(), &sun, &host.out.error) ==
-              PILEUS_BAD_INPUT);
+              PILEUS_ERROR_INPUT);
         CHECK(host.out.line() ==
               "sun: none under [atmosphere], allowed: one, above the horizon or below it");
         // Nothing has come of it.
@@ -198,16 +198,16 @@ TEST_CASE("support: the sky of clouds in air, too, and it takes neither lights n
     clouds_test::CloudySky sky({}, {}, true);
     const auto refused = [&](pileus_code code, Feature feature) {
         const Support& entry = pileus::support(feature, MethodColumn::kCloudSkies);
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(sky.sky.out.line().find(entry.text) != std::string::npos, sky.sky.out.line());
     };
     pileus_session* const s = sky.sky.session.get();
     pileus_error* const e = &sky.sky.out.error;
-    auto map = cleared<pileus_sky>();
+    auto map = cleared<pileus_environment>();
     map.present = 1;
-    refused(pileus_session_set_sky(s, &map, e), Feature::kSetInAir);
-    auto lamp = cleared<pileus_light>();
-    refused(pileus_session_set_lights(s, &lamp, 1, e), Feature::kSetLights);
+    refused(pileus_session_set_environment(s, &map, e), Feature::kSetInAir);
+    auto lamp = cleared<pileus_lamp>();
+    refused(pileus_session_set_lamps(s, &lamp, 1, e), Feature::kSetLights);
     auto work = cleared<pileus_work>();
     work.steps = 8;
     refused(pileus_session_set_work(s, &work, e), Feature::kFrameSteps);

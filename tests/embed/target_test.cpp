@@ -62,10 +62,10 @@ TEST_CASE("targets: linear formats and blends are the same light") {
         host.step(host.whole());
         std::vector<float> whole(4 * kPixels), media(4 * kPixels), over(4 * kPixels, 0.25f),
             nothing(4 * kPixels);
-        draw(host, PILEUS_RGBA32F, PILEUS_REPLACE, false, whole);
-        draw(host, PILEUS_RGBA32F, PILEUS_MEDIA, false, media);
-        draw(host, PILEUS_RGBA32F, PILEUS_OVER, false, over);
-        draw(host, PILEUS_RGBA32F, PILEUS_OVER, false, nothing);
+        draw(host, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_REPLACE, false, whole);
+        draw(host, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_MEDIA, false, media);
+        draw(host, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_OVER, false, over);
+        draw(host, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_OVER, false, nothing);
         CHECK(nothing == media);
         int covered = 0;
         for (std::size_t i = 0; i < kPixels; ++i) {
@@ -81,10 +81,11 @@ TEST_CASE("targets: linear formats and blends are the same light") {
         CHECK(covered > 10);
         // Halves are the floats rounded, and rows may lie the other way round.
         for (const bool up : {false, true})
-            for (const std::uint32_t blend : {PILEUS_REPLACE, PILEUS_MEDIA, PILEUS_OVER}) {
+            for (const std::uint32_t blend :
+                 {PILEUS_BLEND_REPLACE, PILEUS_BLEND_MEDIA, PILEUS_BLEND_OVER}) {
                 std::vector<std::uint16_t> halves(4 * kPixels);
-                draw(host, PILEUS_RGBA16F, blend, up, halves);
-                const std::vector<float>& floats = blend == PILEUS_REPLACE ? whole : media;
+                draw(host, PILEUS_FORMAT_RGBA16F, blend, up, halves);
+                const std::vector<float>& floats = blend == PILEUS_BLEND_REPLACE ? whole : media;
                 for (int y = 0; y < kHeight; ++y)
                     for (std::size_t x = 0; x < 4 * kWidth; ++x) {
                         const auto row = std::size_t(up ? kHeight - 1 - y : y);
@@ -98,9 +99,9 @@ TEST_CASE("targets: linear formats and blends are the same light") {
 TEST_CASE("targets: 8-bit media over black and over a picture") {
     Hosted host = small();
     std::vector<unsigned char> media(4 * kPixels), black(4 * kPixels), white(4 * kPixels, 255);
-    draw(host, PILEUS_RGBA8_SRGB, PILEUS_MEDIA, false, media);
-    draw(host, PILEUS_RGBA8_SRGB, PILEUS_OVER, false, black);
-    draw(host, PILEUS_RGBA8_SRGB, PILEUS_OVER, false, white);
+    draw(host, PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_MEDIA, false, media);
+    draw(host, PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_OVER, false, black);
+    draw(host, PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_OVER, false, white);
     CHECK(media == black);
     for (std::size_t i = 0; i < 4 * kPixels; ++i) {
         CHECK(white[i] >= media[i]);
@@ -132,10 +133,10 @@ TEST_CASE("targets: kinds of depth are one depth, and images of them go both way
     for (const double far_m : {0.0, 20000.0}) {
         CAPTURE(far_m);
         set(1, far_m);
-        const std::vector<float> way = depths(host, PILEUS_DISTANCE),
-                                 z = depths(host, PILEUS_VIEW_Z),
-                                 buffer = depths(host, PILEUS_BUFFER);
-        const std::vector<float> turned = depths(host, PILEUS_DISTANCE, true);
+        const std::vector<float> way = depths(host, PILEUS_DEPTH_DISTANCE),
+                                 z = depths(host, PILEUS_DEPTH_VIEW_Z),
+                                 buffer = depths(host, PILEUS_DEPTH_BUFFER);
+        const std::vector<float> turned = depths(host, PILEUS_DEPTH_DISTANCE, true);
         int seen = 0;
         for (std::size_t i = 0; i < kPixels; ++i) {
             const std::size_t x = i % kWidth, y = i / kWidth;
@@ -154,12 +155,12 @@ TEST_CASE("targets: kinds of depth are one depth, and images of them go both way
         CHECK(seen > 20);
         // What was drawn, handed back as something solid, is where the picture's rays end.
         std::vector<std::vector<float>> again;
-        for (const std::uint32_t kind : {PILEUS_DISTANCE, PILEUS_VIEW_Z}) {
+        for (const std::uint32_t kind : {PILEUS_DEPTH_DISTANCE, PILEUS_DEPTH_VIEW_Z}) {
             auto image = cleared<pileus_depth_image>();
             image.kind = kind;
-            image.values = kind == PILEUS_DISTANCE ? way.data() : z.data();
+            image.values = kind == PILEUS_DEPTH_DISTANCE ? way.data() : z.data();
             host.check(pileus_session_set_depth(host.session.get(), &image, &host.out.error));
-            again.push_back(depths(host, PILEUS_DISTANCE));
+            again.push_back(depths(host, PILEUS_DEPTH_DISTANCE));
             for (std::size_t i = 0; i < kPixels; ++i)
                 CHECK(again.back()[i] <= way[i] * (1 + 1e-5f));
             image.values = nullptr;
@@ -168,12 +169,12 @@ TEST_CASE("targets: kinds of depth are one depth, and images of them go both way
         for (std::size_t i = 0; i < kPixels; ++i)
             if (!std::isinf(way[i]))
                 CHECK(again[0][i] == doctest::Approx(again[1][i]).epsilon(1e-4));
-        CHECK(depths(host, PILEUS_DISTANCE) == way);
+        CHECK(depths(host, PILEUS_DEPTH_DISTANCE) == way);
     }
     // A buffer's own values, from the top and from the bottom.
     std::vector<float> half(kPixels, 0.9997f);
     auto image = cleared<pileus_depth_image>();
-    image.kind = PILEUS_BUFFER;
+    image.kind = PILEUS_DEPTH_BUFFER;
     image.values = half.data();
     std::vector<float> ends[2];
     for (const bool up : {false, true}) {
@@ -181,7 +182,7 @@ TEST_CASE("targets: kinds of depth are one depth, and images of them go both way
             half[i] = (i < kPixels / 2) != up ? 0.9997f : 1.0f;
         image.bottom_up = up ? 1 : 0;
         host.check(pileus_session_set_depth(host.session.get(), &image, &host.out.error));
-        ends[up] = depths(host, PILEUS_DISTANCE);
+        ends[up] = depths(host, PILEUS_DEPTH_DISTANCE);
         for (std::size_t i = 0; i < kPixels / 2; ++i) CHECK(ends[up][i] < 3500);
     }
     CHECK(ends[0] == ends[1]);
@@ -191,14 +192,14 @@ TEST_CASE("targets: kinds of depth are one depth, and images of them go both way
     auto frame = cleared<pileus_frame>();
     std::vector<float> out(kPixels);
     frame.depth = out.data();
-    frame.depth_kind = PILEUS_BUFFER;
+    frame.depth_kind = PILEUS_DEPTH_BUFFER;
     for (const double far_m : {10000.0, 0.0}) {
         flat.far_m = far_m;
         const pileus_code set_flat =
             pileus_session_set_camera(host.session.get(), &flat, &host.out.error);
         host.check(set_flat);
         CHECK(pileus_session_render(host.session.get(), &frame, &host.out.error) ==
-              (far_m > 0 ? PILEUS_OK : PILEUS_BAD_INPUT));
+              (far_m > 0 ? PILEUS_OK : PILEUS_ERROR_INPUT));
     }
 }
 
@@ -235,14 +236,14 @@ TEST_CASE("targets: matrices that are no camera's are refused in a line, and the
         std::memcpy(v, view, sizeof v);
         std::memcpy(p, row.flat ? flat : lens, sizeof p);
         (row.view ? v : p)[row.at] = row.value;
-        CHECK(set(v, p) == PILEUS_BAD_INPUT);
+        CHECK(set(v, p) == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(
             host.out.line().find(row.view ? "view: " : "projection: ") != std::string::npos,
             host.out.line());
         CHECK(host.hash() == before);
     }
     CHECK(pileus_session_set_matrices(host.session.get(), nullptr, lens, PILEUS_CLIP_ZERO, 0, 0,
-                                      &host.out.error) == PILEUS_BAD_INPUT);
+                                      &host.out.error) == PILEUS_ERROR_INPUT);
     // Both clip spaces and a buffer that is upside down are the same camera.
     std::string seen;
     for (const double side : {1.0, -1.0}) {
@@ -262,7 +263,7 @@ TEST_CASE("targets: what a session is set to out of range is refused, key by key
     pileus_error* const e = &host.out.error;
     const std::string before = host.hash();
     const auto refused = [&](pileus_code code, const char* word) {
-        CHECK(code == PILEUS_BAD_INPUT);
+        CHECK(code == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(host.out.line().find(word) != std::string::npos, host.out.line());
         CHECK(host.hash() == before);
     };
@@ -272,12 +273,12 @@ TEST_CASE("targets: what a session is set to out of range is refused, key by key
             placement.offset_m[axis] = value;
             refused(pileus_session_set_placement(s, &placement, e), "placement.offset_m");
         }
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     sky.present = 1;
     const std::vector<float> texels(6 * 3, 1.0f);
     sky.map = texels.data();
     sky.map_size[0] = 16386, sky.map_size[1] = 8193;
-    refused(pileus_session_set_sky(s, &sky, e), "sky.map_size");
+    refused(pileus_session_set_environment(s, &sky, e), "sky.map_size");
     std::uint32_t width = 0;
     refused(pileus_session_size(s, &width, nullptr, e), "width, height");
     auto depth = cleared<pileus_depth_image>();
@@ -290,7 +291,7 @@ TEST_CASE("targets: what a session is set to out of range is refused, key by key
     frame.blend = 0;
     frame.depth_kind = 3;
     refused(pileus_session_render(s, &frame, e), "frame.depth_kind: 3");
-    frame.depth_kind = PILEUS_BUFFER;
+    frame.depth_kind = PILEUS_DEPTH_BUFFER;
     std::vector<float> out(kPixels);
     frame.depth = out.data();
     refused(pileus_session_render(s, &frame, e), "frame.depth: a depth buffer");
@@ -298,20 +299,20 @@ TEST_CASE("targets: what a session is set to out of range is refused, key by key
     const std::vector<float> map(4 * 2 * 3, 0.5f);
     sky.map = map.data();
     sky.map_size[0] = 4, sky.map_size[1] = 2;
-    host.check(pileus_session_set_sky(s, &sky, e));
+    host.check(pileus_session_set_environment(s, &sky, e));
     const std::string under_map = host.hash();
     CHECK(under_map != before);
     const auto none = cleared<pileus_ground>();
-    CHECK(pileus_session_set_ground(s, &none, e) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_set_ground(s, &none, e) == PILEUS_ERROR_INPUT);
     auto turned = cleared<pileus_placement>();
     turned.yaw_deg = 10;
-    CHECK(pileus_session_set_placement(s, &turned, e) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_set_placement(s, &turned, e) == PILEUS_ERROR_INPUT);
     // Kept as it is, then gone.
     sky.map = nullptr;
-    host.check(pileus_session_set_sky(s, &sky, e));
+    host.check(pileus_session_set_environment(s, &sky, e));
     CHECK(host.hash() == under_map);
     sky.map_size[0] = sky.map_size[1] = 0;
     sky.radiance[0] = 0.0625f, sky.radiance[1] = 0.125f, sky.radiance[2] = 0.25f;
-    host.check(pileus_session_set_sky(s, &sky, e));
+    host.check(pileus_session_set_environment(s, &sky, e));
     CHECK(host.hash() == before);
 }

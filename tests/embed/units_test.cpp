@@ -204,9 +204,9 @@ TEST_CASE("units: a thousand frames of more work than fits keep to the budget, e
         // Nothing fits into nothing: the least work, and a line.
         auto least = cleared<pileus_work>();
         CHECK(pileus_session_fit(host.session.get(), &costs, 0, &least, &host.out.error) ==
-              PILEUS_LIMIT);
+              PILEUS_ERROR_LIMIT);
         CHECK(host.out.line().find("work: the least takes up to ") == 0);
-        CHECK(least.struct_size == sizeof least);
+        CHECK(least.struct_size == marked(sizeof least));
     }
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("units: views decide what billboards and particles take, which is said
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
         auto most = cleared<pileus_units>();
         CHECK(pileus_session_most_units(host.session.get(), nullptr, &most, &host.out.error) ==
-              PILEUS_BAD_INPUT);
+              PILEUS_ERROR_INPUT);
         CHECK(host.out.line().find("units: ") == 0);
     }
     Hosted host(kSmallCumulus, {"method.name=raymarch"});
@@ -228,9 +228,9 @@ TEST_CASE("units: views decide what billboards and particles take, which is said
     costs.ray = -1;
     auto work = cleared<pileus_work>();
     CHECK(pileus_session_fit(host.session.get(), &costs, 1, &work, &host.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(pileus_session_fit(host.session.get(), nullptr, 1, &work, &host.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(pileus_session_most_units(nullptr, nullptr, nullptr, &host.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
 }

@@ -115,8 +115,8 @@ TEST_CASE("work: a generation of fewer photons is no other's, and the ring's mea
     auto work = cleared<pileus_work>();
     work.photons = whole.photons / 4;
     host.check(set(host, work));
-    auto info = cleared<pileus_light_info>();
-    host.check(pileus_session_light(host.session.get(), &info, &host.out.error));
+    auto info = cleared<pileus_progress>();
+    host.check(pileus_session_progress(host.session.get(), &info, &host.out.error));
     CHECK(info.unit_photons >= whole.photons / 4 - 2);
     CHECK(info.unit_photons <= whole.photons / 4 + 2);
     const std::string few = frame_hash(host, 0);
@@ -132,7 +132,7 @@ TEST_CASE("work: what a method has not is one line") {
     const auto refused = [](Hosted& host, void (*change)(pileus_work&), const char* word) {
         auto work = cleared<pileus_work>();
         change(work);
-        CHECK(set(host, work) == PILEUS_BAD_INPUT);
+        CHECK(set(host, work) == PILEUS_ERROR_INPUT);
         CHECK_MESSAGE(host.out.line().find(word) != std::string::npos, host.out.line());
         CHECK(host.out.line().find('\n') == std::string::npos);
     };
@@ -166,14 +166,14 @@ TEST_CASE("work: what a method has not is one line") {
     auto governor = cleared<pileus_governor>();
     auto work = cleared<pileus_work>();
     CHECK(pileus_session_govern(rays.session.get(), &governor, 0, &work, &rays.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(rays.out.line().find("target_s") != std::string::npos);
     governor.target_s = 1;
     CHECK(pileus_session_govern(rays.session.get(), &governor, -1, &work, &rays.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(pileus_session_govern(rays.session.get(), nullptr, 1, &work, &rays.out.error) ==
-          PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
     CHECK(pileus_session_govern(rays.session.get(), &governor, 1, nullptr, &rays.out.error) ==
-          PILEUS_BAD_INPUT);
-    CHECK(pileus_session_set_work(nullptr, &work, &rays.out.error) == PILEUS_BAD_INPUT);
+          PILEUS_ERROR_INPUT);
+    CHECK(pileus_session_set_work(nullptr, &work, &rays.out.error) == PILEUS_ERROR_INPUT);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/flight/flight.h"
 #include "src/flight/pack.h"
 #include "src/scene/read_scene.h"
@@ -112,12 +112,12 @@ TEST_CASE("in clear air every method flies in the block it is told, with the has
         sun.present = 1;
         sun.azimuth_deg = 120;
         sun.elevation_deg = 20;
-        CHECK(pileus_session_set_sun(session, &sun, &error) == PILEUS_BAD_INPUT);
+        CHECK(pileus_session_set_sun(session, &sun, &error) == PILEUS_ERROR_INPUT);
         CHECK(std::string(error.message) ==
               "sun: another than when the flight was opened, allowed: what it had");
         pileus_ground ground;
         PILEUS_INIT(ground);
-        CHECK(pileus_session_set_ground(session, &ground, &error) == PILEUS_BAD_INPUT);
+        CHECK(pileus_session_set_ground(session, &ground, &error) == PILEUS_ERROR_INPUT);
         CHECK(std::string(error.message).find("ground: another than when") == 0);
         ok(pileus_session_render(session, &frame, &error));
         CHECK(hash == expected.back());
@@ -142,6 +142,6 @@ TEST_CASE("a quarter of the block that is told for clear air is refused") {
     frame.colour = pixels.data();
     const pileus_flight flight = flight_in(bytes, block, frame);
     pileus_session* session = nullptr;
-    CHECK(pileus_flight_open(&flight, &session, &error) == PILEUS_LIMIT);
+    CHECK(pileus_flight_open(&flight, &session, &error) == PILEUS_ERROR_LIMIT);
     CHECK(session == nullptr);
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/flight/flight.h"
 #include "src/flight/pack.h"
 #include "src/scene/read_scene.h"
@@ -94,23 +94,23 @@ TEST_CASE("lights, the sky, the ground and the place of the media change a fligh
             CHECK(now != before);
             before = now;
         };
-        pileus_light lights[2];
-        for (pileus_light& light : lights) {
+        pileus_lamp lights[2];
+        for (pileus_lamp& light : lights) {
             PILEUS_INIT(light);
             light.light[0] = light.light[1] = light.light[2] = 5e6f;
             light.position_m[1] = -700;
             light.position_m[2] = 900;
         }
-        lights[1].type = PILEUS_SPOT;
+        lights[1].type = PILEUS_LAMP_SPOT;
         lights[1].direction[1] = 1;
         lights[1].cone_deg = 60;
-        flight.ok(pileus_session_set_lights(flight.session, lights, 2, &flight.error));
+        flight.ok(pileus_session_set_lamps(flight.session, lights, 2, &flight.error));
         differs();
-        pileus_sky sky;
+        pileus_environment sky;
         PILEUS_INIT(sky);
         sky.present = 1;
         for (float& c : sky.radiance) c = 0.3f;
-        flight.ok(pileus_session_set_sky(flight.session, &sky, &flight.error));
+        flight.ok(pileus_session_set_environment(flight.session, &sky, &flight.error));
         differs();
         pileus_ground ground;
         PILEUS_INIT(ground);
@@ -161,10 +161,10 @@ TEST_CASE("matrices show what the camera shows that they stand for") {
     // Refused, and the picture stays.
     const std::uint64_t before = flight.draw();
     CHECK(pileus_session_set_matrices(flight.session, view, clip, PILEUS_CLIP_MINUS_ONE, 48, 32,
-                                      &flight.error) == PILEUS_BAD_INPUT);
+                                      &flight.error) == PILEUS_ERROR_INPUT);
     clip[0] = 0;
     CHECK(pileus_session_set_matrices(flight.session, view, clip, PILEUS_CLIP_MINUS_ONE, 0, 0,
-                                      &flight.error) == PILEUS_BAD_INPUT);
+                                      &flight.error) == PILEUS_ERROR_INPUT);
     CHECK(flight.draw() == before);
     flight.check_block();
 }
@@ -178,7 +178,7 @@ TEST_CASE("a flight's work can be set, within what its scene has") {
         flight.ok(pileus_session_work(flight.session, &work, &flight.error));
         flight.ok(pileus_session_set_work(flight.session, &work, &flight.error));
         work.scale = 3;
-        CHECK(pileus_session_set_work(flight.session, &work, &flight.error) == PILEUS_BAD_INPUT);
+        CHECK(pileus_session_set_work(flight.session, &work, &flight.error) == PILEUS_ERROR_INPUT);
         flight.draw();
         pileus_stats stats;
         PILEUS_INIT(stats);
@@ -204,6 +204,7 @@ TEST_CASE("a flat detector moves, and has no depths") {
     flight.check_block();
     std::vector<float> depths(24 * 16);
     flight.frame.depth = depths.data();
-    CHECK(pileus_session_render(flight.session, &flight.frame, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_render(flight.session, &flight.frame, &flight.error) ==
+          PILEUS_ERROR_INPUT);
     CHECK(std::string(flight.error.message).find("frame.depth") != std::string::npos);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/flight/flight.h"
 #include "src/scene/read_scene.h"
 

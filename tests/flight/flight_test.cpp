@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flights by pileus_flight.h: one block, nothing kept by frames, nothing asked of anyone.
+// Flights by pileus.h: one block, nothing kept by frames, nothing asked of anyone.
 // in: packed scenes of every method -> out: hashes as without a block; counts of the block.
 // docs/flight.md
 #include "src/flight/flight.h"
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "tests/flight/flight_scene.h"
 
 namespace {
@@ -134,7 +134,7 @@ TEST_CASE("a block that is too small is refused with a line, whatever its size")
     for (const double share : {0.0, 0.001, 0.1, 0.3, 0.6, 0.8}) {
         Flight flight(bytes);
         flight.setup.block_bytes = std::size_t(share * double(need.kept));
-        CHECK(flight.open() == PILEUS_LIMIT);
+        CHECK(flight.open() == PILEUS_ERROR_LIMIT);
         CHECK(std::string(flight.error.message).find("flight.block: ") == 0);
         CHECK(flight.session == nullptr);
     }
@@ -168,24 +168,25 @@ TEST_CASE("what would need memory of its own is refused once a flight is open, a
     camera.position_m[1] = -4000;
     camera.target_m[2] = 1024;
     camera.fov_deg = 40;
-    CHECK(pileus_session_set_camera(flight.session, &camera, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_set_camera(flight.session, &camera, &flight.error) == PILEUS_ERROR_INPUT);
     CHECK(std::string(flight.error.message).find("camera.resolution: another than when") == 0);
     const float map[2 * 1 * 3] = {1, 1, 1, 1, 1, 1};
-    pileus_sky sky;
+    pileus_environment sky;
     PILEUS_INIT(sky);
     sky.present = 1;
     sky.map_size[0] = 2;
     sky.map_size[1] = 1;
     sky.map = map;
-    CHECK(pileus_session_set_sky(flight.session, &sky, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_session_set_environment(flight.session, &sky, &flight.error) ==
+          PILEUS_ERROR_INPUT);
     std::vector<float> depth(24 * 16, 1000.0f);
     pileus_depth_image image;
     PILEUS_INIT(image);
     image.values = depth.data();
-    CHECK(pileus_session_set_depth(flight.session, &image, &flight.error) == PILEUS_BAD_INPUT);
-    pileus_light light;
+    CHECK(pileus_session_set_depth(flight.session, &image, &flight.error) == PILEUS_ERROR_INPUT);
+    pileus_lamp light;
     PILEUS_INIT(light);
-    CHECK(pileus_session_set_lights(flight.session, &light, 1, &flight.error) != PILEUS_OK);
+    CHECK(pileus_session_set_lamps(flight.session, &light, 1, &flight.error) != PILEUS_OK);
     REQUIRE(flight.fly(1) == PILEUS_OK);
     const pileus_flight_use use = flight.use();
     CHECK(use.kept + use.lost + use.refused == 0);
@@ -219,7 +220,7 @@ TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground
         pileus_ground ground;
         PILEUS_INIT(ground);
         REQUIRE(pileus_session_set_ground(flight.session, &ground, &flight.error) == PILEUS_OK);
-        CHECK(draw() == PILEUS_BAD_INPUT);
+        CHECK(draw() == PILEUS_ERROR_INPUT);
         ground.present = 1;
         ground.albedo = 0.2;
         REQUIRE(pileus_session_set_ground(flight.session, &ground, &flight.error) == PILEUS_OK);
@@ -229,7 +230,7 @@ TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground
         // At the horizon of a ground the sun does not shine.
         Flight dawn(packed_small({name, "sun.elevation_deg=0"}, need));
         REQUIRE(dawn.open() == PILEUS_OK);
-        CHECK(dawn.fly(1) == PILEUS_BAD_INPUT);
+        CHECK(dawn.fly(1) == PILEUS_ERROR_INPUT);
         use = dawn.use();
         CHECK(use.refused + use.kept + use.lost == 0);
     }
@@ -259,21 +260,21 @@ TEST_CASE("depth images come and go where a flight was opened for them") {
     CHECK(use.kept + use.lost + use.refused == 0);
 }
 
-TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
+TEST_CASE("wrong use of pileus.h has a line and a code") {
     FlightNeed need;
     Flight flight(packed_small({}, need));
     const auto refused = [&](const char* words) {
-        CHECK(flight.open() == PILEUS_BAD_INPUT);
+        CHECK(flight.open() == PILEUS_ERROR_INPUT);
         CHECK(std::string(flight.error.message).find(words) == 0);
     };
     std::uint32_t size = 0;
     const void* no_scene = nullptr;
     pileus_packed head;
     PILEUS_INIT(head);
-    CHECK(pileus_packed_read(nullptr, 4096, &head, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_packed_read(nullptr, 4096, &head, &flight.error) == PILEUS_ERROR_INPUT);
     CHECK(std::string(flight.error.message) == "scene: null, allowed: a packed scene");
-    CHECK(pileus_flight_open(nullptr, &flight.session, &flight.error) == PILEUS_BAD_INPUT);
-    CHECK(pileus_flight_open(&flight.setup, nullptr, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_flight_open(nullptr, &flight.session, &flight.error) == PILEUS_ERROR_INPUT);
+    CHECK(pileus_flight_open(&flight.setup, nullptr, &flight.error) == PILEUS_ERROR_INPUT);
     flight.setup.block = nullptr;
     refused("flight.block: null");
     flight.setup.block = flight.block.data();
@@ -282,7 +283,7 @@ TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
     flight.setup.frame = &flight.frame;
     // A frame of no header at all; sizes that no memory has.
     std::swap(flight.frame.struct_size, size);
-    refused("flight.frame: without struct_size");
+    refused("flight.frame: not initialised");
     std::swap(flight.frame.struct_size, size);
     std::swap(flight.setup.scene, no_scene);
     refused("flight.scene: null");
@@ -305,6 +306,6 @@ TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
     flight.setup.isa = "none";
     refused("--isa: ");
     flight.setup.isa = nullptr;
-    CHECK(pileus_flight_usage(nullptr, nullptr, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_flight_usage(nullptr, nullptr, &flight.error) == PILEUS_ERROR_INPUT);
     REQUIRE(flight.open() == PILEUS_OK);
 }

@@ -126,7 +126,7 @@ TEST_CASE("a packed scene at another address is refused in place") {
         pileus_error error;
         PILEUS_INIT(error);
         const pileus_code code = pileus_flight_open(&flight, &session, &error);
-        CHECK(code == (past == 0 ? PILEUS_OK : PILEUS_BAD_INPUT));
+        CHECK(code == (past == 0 ? PILEUS_OK : PILEUS_ERROR_INPUT));
         if (past > 0)
             CHECK(std::string(error.message) ==
                   "packed scene: at no multiple of 64 bytes, allowed in place: one");

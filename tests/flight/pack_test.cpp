@@ -173,7 +173,7 @@ TEST_CASE("one bit that is turned over anywhere, or a byte that is missing, is r
             const pileus_code code = way == 0
                                          ? pileus_packed_read(bytes.data(), size, &head, &error)
                                          : pileus_flight_open(&flight, &session, &error);
-            taken += code != PILEUS_BAD_INPUT;
+            taken += code != PILEUS_ERROR_INPUT;
             silent += !is_line();
         }
     };
@@ -212,14 +212,14 @@ TEST_CASE("a head that is of another scene is refused when a flight is opened") 
     };
     CHECK(opened() == PILEUS_OK);
     head.width = 8;
-    CHECK(opened() == PILEUS_BAD_INPUT);
+    CHECK(opened() == PILEUS_ERROR_INPUT);
     head.width = 24, head.height = 1 << 20;
-    CHECK(opened() == PILEUS_BAD_INPUT);
+    CHECK(opened() == PILEUS_ERROR_INPUT);
     head.height = 16, head.method = "path";
-    CHECK(opened() == PILEUS_BAD_INPUT);
+    CHECK(opened() == PILEUS_ERROR_INPUT);
     // And a block that is smaller than it asks for.
     head.method = "raymarch", head.block_bytes = (16 << 20) + 1;
-    CHECK(opened() == PILEUS_LIMIT);
+    CHECK(opened() == PILEUS_ERROR_LIMIT);
 }
 
 }  // namespace pileus

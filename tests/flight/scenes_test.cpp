@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/flight/flight.h"
 #include "src/flight/pack.h"
 #include "src/scene/read_scene.h"
@@ -76,7 +76,7 @@ void fly(const pileus::Scene& scene, const std::string& bytes, std::vector<unsig
         const pileus_code moved = pileus_session_set_camera(session, &camera, &error);
         // Light that was gathered towards one view is for that view alone.
         if (scene.collectors.closure.camera) {
-            CHECK(moved == PILEUS_BAD_INPUT);
+            CHECK(moved == PILEUS_ERROR_INPUT);
             CHECK(std::string(error.message).find("closure \"camera\"") != std::string::npos);
             break;
         }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "tests/flight/flight_scene.h"
 #include "tests/flight/program/fly_settings.h"
 #include "tests/support/long_tests.h"
@@ -65,9 +65,9 @@ struct Ordinary {
             depth.values = nothing.data();
             ok(pileus_session_set_depth(session, &depth, &error));
         }
-        pileus_light_info light;
+        pileus_progress light;
         PILEUS_INIT(light);
-        ok(pileus_session_light(session, &light, &error));
+        ok(pileus_session_progress(session, &light, &error));
         if (light.whole > 0) ok(pileus_session_step(session, light.whole, nullptr, &error));
         for (int i = 0; i < 2; ++i) ok(pileus_session_render(session, &frame, &error));
     }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "include/pileus/pileus_flight.h"
+#include "include/pileus/pileus.h"
 #include "src/flight/block.h"
 #include "tests/flight/flight_scene.h"
 #include "tests/support/long_tests.h"
@@ -129,12 +129,12 @@ TEST_CASE("a block of any size is refused, or its flight goes on whatever its fr
             PILEUS_INIT(frame);
             PILEUS_INIT(use);
             PILEUS_INIT(camera);
-            frame.format = PILEUS_RGBA32F;
+            frame.format = PILEUS_FORMAT_RGBA32F;
             frame.colour = pixels.data();
             const pileus_flight flight = flight_in(bytes, block, frame);
             pileus_session* session = nullptr;
             const pileus_code code = pileus_flight_open(&flight, &session, &error);
-            REQUIRE((code == PILEUS_OK || code == PILEUS_LIMIT));
+            REQUIRE((code == PILEUS_OK || code == PILEUS_ERROR_LIMIT));
             CHECK((code == PILEUS_OK) == (session != nullptr));
             if (code != PILEUS_OK) continue;
             ++opened;
@@ -146,7 +146,7 @@ TEST_CASE("a block of any size is refused, or its flight goes on whatever its fr
                 REQUIRE(pileus_session_set_camera(session, &camera, &error) == PILEUS_OK);
                 pileus_code drawn = pileus_session_step(session, 1, nullptr, &error);
                 if (drawn == PILEUS_OK) drawn = pileus_session_render(session, &frame, &error);
-                CHECK_MESSAGE((drawn == PILEUS_OK || drawn == PILEUS_LIMIT), error.message);
+                CHECK_MESSAGE((drawn == PILEUS_OK || drawn == PILEUS_ERROR_LIMIT), error.message);
             }
             REQUIRE(pileus_flight_usage(session, &use, &error) == PILEUS_OK);
             CHECK(use.kept + use.lost == 0);

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "include/pileus/pileus.h"
-#include "include/pileus/pileus_clouds.h"
 
 namespace guard {
 
@@ -101,13 +100,13 @@ struct Guarded {
         said("set_sun", pileus_session_set_sun(session, &s, &error));
     }
     void sky(float radiance, const std::vector<float>* map = nullptr, bool keep = false) {
-        auto s = cleared<pileus_sky>();
+        auto s = cleared<pileus_environment>();
         s.present = radiance >= 0;
         for (float& c : s.radiance) c = radiance;
         if (map != nullptr || keep) s.map_size[0] = 16, s.map_size[1] = 8;
         if (map != nullptr) s.map = map->data();
         s.map_scale = 1.25, s.map_rotation_deg = 30;
-        said("set_sky", pileus_session_set_sky(session, &s, &error));
+        said("set_sky", pileus_session_set_environment(session, &s, &error));
     }
     void ground(int present, double altitude_m, double albedo) {
         auto g = cleared<pileus_ground>();
@@ -116,7 +115,7 @@ struct Guarded {
         said("set_ground", pileus_session_set_ground(session, &g, &error));
     }
     void lights(std::uint32_t count) {
-        pileus_light lamps[3];
+        pileus_lamp lamps[3];
         for (std::uint32_t i = 0; i < 3; ++i) {
             PILEUS_INIT(lamps[i]);
             lamps[i].type = i;
@@ -126,12 +125,12 @@ struct Guarded {
             lamps[i].azimuth_deg = 30, lamps[i].elevation_deg = 40;
             for (float& c : lamps[i].light) c = i == 2 ? 0.3f : 1e5f;
         }
-        said("set_lights", pileus_session_set_lights(session, lamps, count, &error));
+        said("set_lights", pileus_session_set_lamps(session, lamps, count, &error));
     }
     void depth(pileus_depth kind, double value) {
         std::vector<float> values(std::size_t(kWidth) * kHeight, float(value));
         for (std::size_t i = 0; i < values.size() / 2; ++i)
-            values[i] = float(kind == PILEUS_BUFFER ? 1 : kFar);
+            values[i] = float(kind == PILEUS_DEPTH_BUFFER ? 1 : kFar);
         auto d = cleared<pileus_depth_image>();
         d.kind = kind;
         d.values = value > 0 ? values.data() : nullptr;
@@ -161,9 +160,9 @@ struct Guarded {
     /// So many bytes a pixel by `fill`, none by 0: a hash has all layers made, none lets rows come
     /// late.
     void draw(const char* what, pileus_format format, pileus_blend blend, bool hashed) {
-        const std::size_t bytes = format == PILEUS_RGBA8_SRGB ? 4
-                                  : format == PILEUS_RGBA16F  ? 8
-                                                              : 16;
+        const std::size_t bytes = format == PILEUS_FORMAT_RGBA8_SRGB ? 4
+                                  : format == PILEUS_FORMAT_RGBA16F  ? 8
+                                                                     : 16;
         std::vector<unsigned char> colour(bytes * kWidth * kHeight, 7);
         std::vector<float> metres(std::size_t(kWidth) * kHeight, 7.0f);
         std::uint64_t hash = 0;
@@ -181,16 +180,16 @@ struct Guarded {
     }
     /// A whole light, the picture three times.
     void picture(const char* what) {
-        auto light = cleared<pileus_light_info>();
+        auto light = cleared<pileus_progress>();
         std::uint32_t done = 0;
-        said("light", pileus_session_light(session, &light, &error));
+        said("light", pileus_session_progress(session, &light, &error));
         said("step", pileus_session_step(session, light.whole, &done, &error));
-        said("light", pileus_session_light(session, &light, &error));
+        said("light", pileus_session_progress(session, &light, &error));
         std::printf("%s: %u of %u %s, %llu held, %llu photons\n", what, done, light.whole,
                     light.unit, wide(light.units), wide(light.unit_photons));
-        draw(what, PILEUS_RGBA32F, PILEUS_REPLACE, true);
-        draw(what, PILEUS_RGBA8_SRGB, PILEUS_REPLACE, false);
-        draw(what, PILEUS_RGBA16F, PILEUS_MEDIA, false);
+        draw(what, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_REPLACE, true);
+        draw(what, PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_REPLACE, false);
+        draw(what, PILEUS_FORMAT_RGBA16F, PILEUS_BLEND_MEDIA, false);
     }
     void end() {
         auto s = cleared<pileus_stats>();

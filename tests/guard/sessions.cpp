@@ -53,11 +53,11 @@ void set_all(Guarded& g) {
         {"a light", [&] { g.lights(1); }},
         {"lights", [&] { g.lights(3); }},
         {"no lights", [&] { g.lights(0); }},
-        {"distances", [&] { g.depth(PILEUS_DISTANCE, 3900); }},
-        {"depths", [&] { g.depth(PILEUS_VIEW_Z, 3800); }},
+        {"distances", [&] { g.depth(PILEUS_DEPTH_DISTANCE, 3900); }},
+        {"depths", [&] { g.depth(PILEUS_DEPTH_VIEW_Z, 3800); }},
         {"depths and a camera", [&] { g.camera(60, -4000, 256); }},
-        {"buffer", [&] { g.matrices(0, PILEUS_CLIP_ZERO), g.depth(PILEUS_BUFFER, 0.9997); }},
-        {"no depths", [&] { g.depth(PILEUS_DISTANCE, 0), g.camera(16, -4000, 256); }},
+        {"buffer", [&] { g.matrices(0, PILEUS_CLIP_ZERO), g.depth(PILEUS_DEPTH_BUFFER, 0.9997); }},
+        {"no depths", [&] { g.depth(PILEUS_DEPTH_DISTANCE, 0), g.camera(16, -4000, 256); }},
         {"placed", [&] { g.placement(200, 50, 0); }},
         {"turned", [&] { g.placement(200, 50, 40); }},
         {"turned, sun", [&] { g.sun(100, 30); }},
@@ -125,22 +125,22 @@ void refuse_all(Guarded& g) {
     g.sun(400, 10), g.sun(0, 91), g.sun(nan, 0), g.sun(0, 10, -1), g.sun(0, 10, 1e13f);
     g.sky(1e13f), g.sky(std::numeric_limits<float>::quiet_NaN()), g.sky(0, nullptr, true);
     g.ground(1, 0, 1.5), g.ground(1, nan, 0.5), g.ground(1, 900, 0.5), g.ground(1, 2e9, 0);
-    g.lights(65), g.depth(pileus_depth(9), 3), g.depth(PILEUS_DISTANCE, -kFar);
+    g.lights(65), g.depth(pileus_depth(9), 3), g.depth(PILEUS_DEPTH_DISTANCE, -kFar);
     g.placement(nan, 0, 0), g.placement(2e9, 0, 0), g.placement(0, 0, 400);
     g.frame(-1);
-    g.draw("format", pileus_format(9), PILEUS_REPLACE, true);
-    g.draw("blend", PILEUS_RGBA32F, pileus_blend(9), true);
-    auto lamp = cleared<pileus_light>();
+    g.draw("format", pileus_format(9), PILEUS_BLEND_REPLACE, true);
+    g.draw("blend", PILEUS_FORMAT_RGBA32F, pileus_blend(9), true);
+    auto lamp = cleared<pileus_lamp>();
     const std::function<void()> changes[] = {
-        [&] { lamp.type = 9; },         [&] { lamp.type = PILEUS_SPOT; },
+        [&] { lamp.type = 9; },         [&] { lamp.type = PILEUS_LAMP_SPOT; },
         [&] { lamp.direction[0] = 1; }, [&] { lamp.cone_deg = 40, lamp.penumbra_deg = 30; },
         [&] { lamp.radius_m = -1; },    [&] { lamp.shadow_samples = 65; },
         [&] { lamp.light[1] = -1; },    [&] { lamp.position_m[2] = 3e9; },
     };
     for (const auto& change : changes) {
-        lamp = cleared<pileus_light>();
+        lamp = cleared<pileus_lamp>();
         change();
-        g.said("light", pileus_session_set_lights(g.session, &lamp, 1, &g.error));
+        g.said("light", pileus_session_set_lamps(g.session, &lamp, 1, &g.error));
     }
     for (const std::uint32_t value : {5u, 100u, 70000u}) {
         auto w = cleared<pileus_work>();
@@ -157,10 +157,10 @@ void late_all(Guarded& g) {
     for (int frame = 0; frame < 6; ++frame) {
         g.camera(16 + 40 * frame, -4000, 256);
         g.sun(120, 35 + frame / 3);
-        g.draw("late", PILEUS_RGBA8_SRGB, PILEUS_REPLACE, false);
+        g.draw("late", PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_REPLACE, false);
         g.said("step", pileus_session_step(g.session, 1, nullptr, &g.error));
-        g.draw("late", PILEUS_RGBA8_SRGB, PILEUS_OVER, false);
-        g.draw("late, hashed", PILEUS_RGBA8_SRGB, PILEUS_REPLACE, true);
+        g.draw("late", PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_OVER, false);
+        g.draw("late, hashed", PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_REPLACE, true);
     }
 }
 
@@ -174,7 +174,7 @@ void hand_over(Guarded& g, Guarded& next) {
         if (frame > 4) g.camera(16 + 20 * frame, -4000, 256);
         if (frame == 7) g.sun(121, 35);
         g.picture("over");
-        g.draw("late", PILEUS_RGBA8_SRGB, PILEUS_OVER, false);
+        g.draw("late", PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_OVER, false);
     }
     g.said("back", pileus_session_hand_over(g.session, next.session, 1, &g.error));
     g.picture("back");
@@ -225,8 +225,8 @@ void cloud_sky(Guarded& sky, const Guarded& kind) {
         {"no ground", [&] { sky.ground(0, 0, 0); }},
         {"lights", [&] { sky.lights(3); }},
         {"no lights", [&] { sky.lights(0); }},
-        {"depths", [&] { sky.depth(PILEUS_DISTANCE, 4000); }},
-        {"no depths", [&] { sky.depth(PILEUS_DISTANCE, 0); }},
+        {"depths", [&] { sky.depth(PILEUS_DEPTH_DISTANCE, 4000); }},
+        {"no depths", [&] { sky.depth(PILEUS_DEPTH_DISTANCE, 0); }},
         {"work", [&] { sky.set_work(w); }},
         {"sky placed", [&] { sky.placement(10, 0, 20); }},
         {"fewer", [&] { place(3); }},
@@ -237,8 +237,8 @@ void cloud_sky(Guarded& sky, const Guarded& kind) {
     };
     for (const Step& step : steps) {
         step.second();
-        sky.draw(step.first, PILEUS_RGBA32F, PILEUS_REPLACE, true);
-        sky.draw(step.first, PILEUS_RGBA8_SRGB, PILEUS_REPLACE, false);
+        sky.draw(step.first, PILEUS_FORMAT_RGBA32F, PILEUS_BLEND_REPLACE, true);
+        sky.draw(step.first, PILEUS_FORMAT_RGBA8_SRGB, PILEUS_BLEND_REPLACE, false);
         auto s = cleared<pileus_cloud_stats>();
         sky.said("stats", pileus_clouds_stats(sky.clouds, &s, &sky.error));
         std::printf(

@@ -28,7 +28,7 @@ struct Failure {
 };
 
 [[noreturn]] inline void bad_input(const std::string& text) {
-    throw Failure{PILEUS_BAD_INPUT, text};
+    throw Failure{PILEUS_ERROR_INPUT, text};
 }
 
 /// What Python's str() gives.

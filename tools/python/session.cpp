@@ -87,7 +87,7 @@ void set_sun(Session& session, bool present, double azimuth_deg, double elevatio
 
 void set_sky(Session& session, bool present, const Three& radiance, const std::optional<Map>& map,
              double scale, double rotation_deg) {
-    auto sky = cleared<pileus_sky>();
+    auto sky = cleared<pileus_environment>();
     sky.present = present ? 1 : 0;
     copy3(radiance, sky.radiance);
     sky.map_scale = scale;
@@ -102,7 +102,7 @@ void set_sky(Session& session, bool present, const Three& radiance, const std::o
         if (map->size() == 0) bad_input("sky: an empty map, allowed: rows and columns");
         sky.map = map->data();
     }
-    set(session, pileus_session_set_sky, sky);
+    set(session, pileus_session_set_environment, sky);
 }
 
 void set_ground(Session& session, bool present, double altitude, double albedo) {
@@ -119,10 +119,10 @@ using LightNumbers = std::array<double, 16>;
 
 void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
     const Turn turn(session);
-    std::vector<pileus_light> lights;
+    std::vector<pileus_lamp> lights;
     for (const LightNumbers& n : numbers) {
-        lights.push_back(cleared<pileus_light>());
-        pileus_light& light = lights.back();
+        lights.push_back(cleared<pileus_lamp>());
+        pileus_lamp& light = lights.back();
         light.type = std::uint32_t(n[0]);
         for (std::size_t a = 0; a < 3; ++a) {
             light.position_m[a] = n[1 + a];
@@ -134,8 +134,8 @@ void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
         light.shadow_samples = std::uint32_t(n[15] >= 0 && n[15] <= 64 ? n[15] : 65);
     }
     call([&](pileus_error* error) {
-        return pileus_session_set_lights(session.session.get(), lights.data(),
-                                         std::uint32_t(lights.size()), error);
+        return pileus_session_set_lamps(session.session.get(), lights.data(),
+                                        std::uint32_t(lights.size()), error);
     });
 }
 
@@ -173,9 +173,9 @@ void set_frame(Session& session, std::int32_t number) {
 
 py::tuple light(Session& session) {
     const Turn turn(session);
-    auto info = cleared<pileus_light_info>();
+    auto info = cleared<pileus_progress>();
     call([&](pileus_error* error) {
-        return pileus_session_light(session.session.get(), &info, error);
+        return pileus_session_progress(session.session.get(), &info, error);
     });
     return py::make_tuple(info.whole, info.unit_photons, info.units, info.unit);
 }
@@ -190,9 +190,9 @@ std::uint32_t step(Session& session, std::uint32_t units) {
 }
 
 py::dtype dtype_of(std::uint32_t format) {
-    return format == PILEUS_RGBA8_SRGB
+    return format == PILEUS_FORMAT_RGBA8_SRGB
                ? py::dtype("uint8")
-               : py::dtype(format == PILEUS_RGBA16F ? "float16" : "float32");
+               : py::dtype(format == PILEUS_FORMAT_RGBA16F ? "float16" : "float32");
 }
 
 /// Into arrays of the caller; the picture's hash where it is asked for.

@@ -22,8 +22,8 @@ T cleared() {
 /// What the library said, as the program says it.
 inline Status of(pileus_code code, const pileus_error& error) {
     if (code == PILEUS_OK) return Status::ok();
-    if (code == PILEUS_LIMIT) return Status::limit(error.message);
-    return code == PILEUS_IO ? Status::io(error.message) : Status::bad_input(error.message);
+    if (code == PILEUS_ERROR_LIMIT) return Status::limit(error.message);
+    return code == PILEUS_ERROR_IO ? Status::io(error.message) : Status::bad_input(error.message);
 }
 
 class Drawn {

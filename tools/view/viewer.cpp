@@ -171,12 +171,12 @@ private:
     /// One unit of light while the picture has not all that it should have.
     Status trace(bool moved, bool& more) {
         auto error = cleared<pileus_error>();
-        auto light = cleared<pileus_light_info>();
-        PILEUS_TRY(of(pileus_session_light(drawn_->get(), &light, &error), error));
+        auto light = cleared<pileus_progress>();
+        PILEUS_TRY(of(pileus_session_progress(drawn_->get(), &light, &error), error));
         more = false;
         if (state_.lit && light.units < light.whole) {
             PILEUS_TRY(of(pileus_session_step(drawn_->get(), 1, nullptr, &error), error));
-            PILEUS_TRY(of(pileus_session_light(drawn_->get(), &light, &error), error));
+            PILEUS_TRY(of(pileus_session_progress(drawn_->get(), &light, &error), error));
             more = light.units < light.whole;
         }
         units_ = light.whole == 0
@@ -188,7 +188,7 @@ private:
         auto frame = cleared<pileus_frame>();
         linear_.resize(4 * std::size_t(width_) * std::size_t(height_));
         frame.colour = linear_.data();
-        frame.format = PILEUS_RGBA32F;
+        frame.format = PILEUS_FORMAT_RGBA32F;
         PILEUS_TRY(of(pileus_session_render(drawn_->get(), &frame, &error), error));
         noise_.add(light.units, linear_);
         return Status::ok();
@@ -201,10 +201,10 @@ private:
         depth_.resize(state_.shown == Shown::kDepth ? pixels : 0);
         auto frame = cleared<pileus_frame>();
         frame.colour = bytes_.data();
-        frame.format = PILEUS_RGBA8_SRGB;
+        frame.format = PILEUS_FORMAT_RGBA8_SRGB;
         frame.exposure_stops = float(stops_);
         frame.depth = depth_.empty() ? nullptr : depth_.data();
-        frame.depth_kind = PILEUS_DISTANCE;
+        frame.depth_kind = PILEUS_DEPTH_DISTANCE;
         return of(pileus_session_render(drawn_->get(), &frame, &error), error);
     }
 

@@ -2,6 +2,7 @@
 // See key_value.h.
 #include "src/scene/keys/key_value.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace pileus {
@@ -96,6 +97,8 @@ bool texts_hold(const Node& node, std::string_view text) {
 
 std::string toml_text(const Node& node) {
     if (node.is_text()) return toml_string(node.text);
+    // A date or a time means what the same text does.
+    if (node.kind == NodeKind::kOther && !node.written.empty()) return toml_string(node.written);
     if (node.is_table()) {
         std::string shown = "{";
         for (const Node& child : node.children)
@@ -107,6 +110,45 @@ std::string toml_text(const Node& node) {
     for (std::size_t i = 0; i < node.children.size(); ++i)
         shown += (i > 0 ? ", " : "") + toml_text(node.children[i]);
     return shown + "]";
+}
+
+namespace {
+
+bool is_table_list(const Node& node) {
+    for (const Node& child : node.children)
+        if (!child.is_table()) return false;
+    return node.is_array() && !node.children.empty();
+}
+
+/// By their keys, as the parser has them: what overrides added stands at the end.
+std::vector<const Node*> in_order(const Node& table) {
+    std::vector<const Node*> members;
+    for (const Node& child : table.children) members.push_back(&child);
+    std::sort(members.begin(), members.end(),
+              [](const Node* a, const Node* b) { return a->key < b->key; });
+    return members;
+}
+
+std::string members_text(const Node& table) {
+    std::string text;
+    for (const Node* child : in_order(table)) text += child->key + " = " + toml_text(*child) + '\n';
+    return text;
+}
+
+}  // namespace
+
+std::string toml_document(const Node& root) {
+    std::string values, tables;
+    for (const Node* child : in_order(root)) {
+        if (child->is_table())
+            tables += "\n[" + child->key + "]\n" + members_text(*child);
+        else if (!is_table_list(*child))
+            values += child->key + " = " + toml_text(*child) + '\n';
+        else
+            for (const Node& element : child->children)
+                tables += "\n[[" + child->key + "]]\n" + members_text(element);
+    }
+    return values + tables;
 }
 
 }  // namespace pileus

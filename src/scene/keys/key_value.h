@@ -75,5 +75,7 @@ void take(const Node& node, std::array<Value, N>& values) {
 
 /// A whole value as TOML, on one line.
 std::string toml_text(const Node& node);
+/// A document: values first, then each table and each list of tables.
+std::string toml_document(const Node& root);
 
 }  // namespace pileus

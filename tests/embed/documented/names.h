@@ -4,8 +4,6 @@
 #ifndef PILEUS_DOCUMENTED_NAMES_H
 #define PILEUS_DOCUMENTED_NAMES_H
 #include <pileus/pileus.h>
-#include <pileus/pileus_clouds.h>
-#include <pileus/pileus_flight.h>
 #include <stdio.h>
 
 extern pileus_scene *scene, *sky_scene;

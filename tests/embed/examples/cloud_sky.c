@@ -2,8 +2,8 @@
  * A flight through a sky of a hundred clouds: two kinds, each in four turns, near and far.
  * in: a sky's scene file, a cloud's, frames, a file for the last picture -> out: a line for each
  * picture with its hash and what was drawn anew; a PPM file.
- * docs/clouds.md explains each step. Needs nothing but pileus_clouds.h and the C library. */
-#include <pileus/pileus_clouds.h>
+ * docs/clouds.md explains each step. Needs nothing but pileus.h and the C library. */
+#include <pileus/pileus.h>
 #include <stdio.h>
 #include <stdlib.h>
 

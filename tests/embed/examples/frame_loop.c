@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
     pileus_scene* scene = NULL;
     pileus_world* world = NULL;
     pileus_session* session = NULL;
-    pileus_light_info light;
+    pileus_progress light;
     pileus_camera camera;
     pileus_sun sun;
     PILEUS_INIT(error);
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     check(pileus_scene_read(argv[1], overrides, 5, &scene, &error), &error);
     check(pileus_world_create(scene, NULL, NULL, 0, &world, &error), &error);
     check(pileus_session_create(world, scene, NULL, &session, &error), &error);
-    check(pileus_session_light(session, &light, &error), &error);
+    check(pileus_session_progress(session, &light, &error), &error);
 
     for (frame = 0; frame < frames; ++frame) {
         const double start[3] = {0, -3000, 600}, target[3] = {0, 0, 900};
@@ -96,13 +96,13 @@ int main(int argc, char** argv) {
 
         /* Light, then the cloud over the picture and behind the wall. */
         draw_own_picture(colour, depth);
-        opaque.kind = PILEUS_DISTANCE;
+        opaque.kind = PILEUS_DEPTH_DISTANCE;
         opaque.values = depth;
         if (over) check(pileus_session_set_depth(session, &opaque, &error), &error);
         check(pileus_session_step(session, units, NULL, &error), &error);
         picture.colour = colour;
-        picture.format = PILEUS_RGBA8_SRGB;
-        picture.blend = over ? PILEUS_OVER : PILEUS_REPLACE;
+        picture.format = PILEUS_FORMAT_RGBA8_SRGB;
+        picture.blend = over ? PILEUS_BLEND_OVER : PILEUS_BLEND_REPLACE;
         picture.hash = &hash;
         check(pileus_session_render(session, &picture, &error), &error);
         printf("%d %08lx%08lx\n", frame, (unsigned long)(hash >> 32),

@@ -2,8 +2,8 @@
  * A flight in one block: a packed scene, frames under a sun and a camera that move.
  * in: a packed scene, frames, every how many frames a line is written -> out: a line with the hash
  * of the picture for each of those, one with the digest of all frames, one with what the block has
- * seen. docs/flight.md explains each step. Needs nothing but pileus_flight.h and the C library. */
-#include <pileus/pileus_flight.h>
+ * seen. docs/flight.md explains each step. Needs nothing but pileus.h and the C library. */
+#include <pileus/pileus.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     if (check(pileus_packed_read(scene, scene_bytes, &packed, &error), &error)) return 2;
 
     /* One block, one picture. */
-    picture.format = PILEUS_RGBA8_SRGB;
+    picture.format = PILEUS_FORMAT_RGBA8_SRGB;
     picture.colour = malloc(4 * (size_t)packed.width * packed.height);
     picture.hash = &hash;
     flight.scene = scene;

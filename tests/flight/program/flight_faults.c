@@ -3,7 +3,7 @@
  * in: a packed scene -> out: "sound", or the first thing that is wrong and exit status 1.
  * docs/flight.md, "Promises" */
 #include <fenv.h>
-#include <pileus/pileus_flight.h>
+#include <pileus/pileus.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,14 +61,14 @@ int main(int argc, char** argv) {
         fesetround(FE_UPWARD);
         if (pileus_flight_open(&flight, &session, &error) == PILEUS_OK)
             pileus_flight_close(session);
-        else if (error.code != PILEUS_LIMIT)
+        else if (error.code != PILEUS_ERROR_LIMIT)
             return wrong(error.message);
         if (fegetround() != FE_UPWARD) return wrong("another rounding after opening in vain");
     }
     fesetround(FE_TONEAREST);
-    if (pileus_packed_read(scene, bytes - 1, &packed, &error) != PILEUS_BAD_INPUT)
+    if (pileus_packed_read(scene, bytes - 1, &packed, &error) != PILEUS_ERROR_INPUT)
         return wrong("a scene cut short was taken");
-    if (pileus_session_step(NULL, 1, NULL, &error) != PILEUS_BAD_INPUT)
+    if (pileus_session_step(NULL, 1, NULL, &error) != PILEUS_ERROR_INPUT)
         return wrong("no session was taken for one");
 
     /* Alone and on lent threads: the same picture. What is out of range is refused and does no harm. */
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
         if (pileus_flight_open(&flight, &session, &error) != PILEUS_OK) return wrong(error.message);
         sun.present = 1;
         sun.elevation_deg = 91;
-        if (pileus_session_set_sun(session, &sun, &error) != PILEUS_BAD_INPUT)
+        if (pileus_session_set_sun(session, &sun, &error) != PILEUS_ERROR_INPUT)
             return wrong("a sun beyond the zenith was taken");
         if (strstr(error.message, "sun.elevation_deg") == NULL) return wrong(error.message);
         if (pileus_session_step(session, 1, NULL, &error) != PILEUS_OK ||

@@ -87,7 +87,7 @@ static int fits(pileus_session* session, const char** what) {
                                                               &work, &error);
         PILEUS_INIT(nothing);
         /* Of some methods the view decides what they take; of the least work it may be too much. */
-        if (code == PILEUS_OK || code == PILEUS_LIMIT)
+        if (code == PILEUS_OK || code == PILEUS_ERROR_LIMIT)
             code = pileus_session_set_work(session, &work, &error);
         else if (i % 2 == 0 && strstr(error.message, "units: ") == error.message)
             code = PILEUS_OK;
@@ -120,7 +120,7 @@ static int comes_near(pileus_session* session, const pileus_frame* frame, const 
         camera.position_m[2] = 1000;
         code = pileus_session_set_camera(session, &camera, &error);
         if (code == PILEUS_OK) code = pileus_session_render(session, frame, &error);
-        if (code != PILEUS_OK && (i % 2 == 0 || code != PILEUS_LIMIT)) {
+        if (code != PILEUS_OK && (i % 2 == 0 || code != PILEUS_ERROR_LIMIT)) {
             *what = "a view from within ended the flight";
             return 1;
         }

@@ -5,8 +5,8 @@
 #ifndef PILEUS_FLY_SETTINGS_H
 #define PILEUS_FLY_SETTINGS_H
 
-#ifndef PILEUS_FLIGHT_H /* tests find it elsewhere */
-#include <pileus/pileus_flight.h>
+#ifndef PILEUS_H /* tests find it elsewhere */
+#include <pileus/pileus.h>
 #endif
 #include <stdio.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static int flown_set(pileus_session* session, int number, const flown_memory* me
     pileus_camera camera;
     pileus_sun sun;
     pileus_depth_image depth;
-    pileus_light lights[2];
+    pileus_lamp lights[2];
     unsigned i;
     PILEUS_INIT(camera);
     PILEUS_INIT(sun);
@@ -56,7 +56,7 @@ static int flown_set(pileus_session* session, int number, const flown_memory* me
     }
     /* Now none, now one, now both. */
     if (lamps > 0 &&
-        pileus_session_set_lights(session, lights, (unsigned)number % (lamps + 1), error))
+        pileus_session_set_lamps(session, lights, (unsigned)number % (lamps + 1), error))
         return 1;
     return (int)pileus_session_step(session, 1, NULL, error);
 }
@@ -122,7 +122,7 @@ static const char* fly_settings(pileus_session* session, pileus_session* other,
             pileus_frame frame;
             pileus_code code = pileus_session_set_work(both[i], work, &error);
             /* One sum of photons has no smaller generations; what is refused does no harm. */
-            if (code == PILEUS_BAD_INPUT && work->photons > 0) code = PILEUS_OK;
+            if (code == PILEUS_ERROR_INPUT && work->photons > 0) code = PILEUS_OK;
             flown_frame(target, i, memory, &hash[i], &frame);
             if (code != PILEUS_OK || flown_set(both[i], number, memory, hidden, lamps, &error) ||
                 pileus_session_render(both[i], &frame, &error)) {

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus.h: scenes that a program changes, and the keys that they may hold.
+// docs/embedding.md, "Scenes by program"
+#include <cmath>
+
+#include "src/api/c_types.h"
+#include "src/base/number_text.h"
+#include "src/base/printable.h"
+#include "src/scene/checks/key_words.h"
+#include "src/scene/read_scene.h"
+
+namespace pileus::api {
+namespace {
+
+constexpr std::uint32_t kMaxNumbers = 64;
+
+Status set_key(Scene& scene, const std::string& key, const std::string& value) {
+    if (key.empty() || key.find_first_of("= \t\n") != std::string::npos)
+        return Status::bad_input("key: " + printable(key.substr(0, 60)) +
+                                 ", allowed: the name of a key, such as medium.0.albedo");
+    std::vector<std::string> set = scene.overrides;
+    // A slider sets the same key again and again.
+    if (!set.empty() && set.back().compare(0, key.size() + 1, key + "=") == 0) set.pop_back();
+    set.push_back(key + "=" + value);
+    Scene next;
+    PILEUS_TRY(
+        read_scene_text(text_without_overrides(scene), scene.file, scene.directory, set, next));
+    scene = std::move(next);
+    return Status::ok();
+}
+
+std::uint32_t numbers_of(KeyKind kind) {
+    switch (kind) {
+        case KeyKind::kInteger:
+        case KeyKind::kNumber:
+            return 1;
+        case KeyKind::kInteger2:
+        case KeyKind::kNumber2:
+            return 2;
+        case KeyKind::kInteger3:
+        case KeyKind::kNumber3:
+        case KeyKind::kColor:
+            return 3;
+        case KeyKind::kInteger4:
+        case KeyKind::kRectangle:
+            return 4;
+        case KeyKind::kBounds:
+            return 6;
+        default:
+            return 0;
+    }
+}
+
+template <std::size_t N>
+void copy_text(const std::string& text, char (&to)[N]) {
+    std::strncpy(to, text.c_str(), N - 1);
+    if (text.size() >= N) std::memcpy(to + N - 4, "...", 3);
+}
+
+}  // namespace
+}  // namespace pileus::api
+
+using namespace pileus;
+using namespace pileus::api;
+
+extern "C" {
+
+pileus_code pileus_scene_set(pileus_scene* scene, const char* key, const char* value,
+                             pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return no_handle("scene");
+        if (key == nullptr || value == nullptr)
+            return Status::bad_input("key, value: null, allowed: a text each");
+        return set_key(scene->scene, key, value);
+    });
+}
+
+pileus_code pileus_scene_set_numbers(pileus_scene* scene, const char* key, const double* values,
+                                     uint32_t count, pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return no_handle("scene");
+        if (key == nullptr || values == nullptr)
+            return Status::bad_input("key, values: null, allowed: a text, and numbers");
+        if (count < 1 || count > kMaxNumbers)
+            return Status::bad_input("count: " + std::to_string(count) + ", allowed: 1 to " +
+                                     std::to_string(kMaxNumbers));
+        std::string text;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (!std::isfinite(values[i]))
+                return Status::bad_input("values[" + std::to_string(i) +
+                                         "]: " + number_text(values[i]) + ", allowed: finite");
+            text += (i > 0 ? "," : "") + number_text(values[i]);
+        }
+        return set_key(scene->scene, key, count > 1 ? "[" + text + "]" : text);
+    });
+}
+
+pileus_code pileus_scene_dump(const pileus_scene* scene, char* text, size_t size, size_t* needed,
+                              pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return no_handle("scene");
+        std::string document;
+        PILEUS_TRY(scene_document(scene->scene, document));
+        return give_text(document, "scene", text, size, needed);
+    });
+}
+
+uint32_t pileus_key_count(void) { return std::uint32_t(all_scene_keys().size()); }
+
+pileus_code pileus_key_at(uint32_t index, pileus_key* key, pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        const std::vector<const KeyRow*> keys = all_scene_keys();
+        if (index >= keys.size())
+            return Status::bad_input("index: " + std::to_string(index) + ", allowed: below " +
+                                     std::to_string(keys.size()));
+        const KeyRow& row = *keys[index];
+        pileus_key out{};
+        out.name = row.path;
+        out.unit = row.unit;
+        out.help = row.help;
+        out.numbers = numbers_of(row.kind());
+        if (out.numbers > 0) out.low = row.allowed.range.low, out.high = row.allowed.range.high;
+        copy_text(allowed_text(row), out.allowed);
+        if (!row.required()) copy_text(default_text(row), out.value);
+        return give(out, key, "key");
+    });
+}
+
+}  // extern "C"
