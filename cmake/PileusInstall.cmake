@@ -13,11 +13,13 @@ set(libraries pileus_static)
 set(PILEUS_HAS_SHARED FALSE)
 # A foreign machine's programs are static, and sanitizers belong to programs.
 if(PILEUS_SHARED AND NOT CMAKE_CROSSCOMPILING AND NOT PILEUS_SANITIZE)
+    # Before 1.0 a minor version may change what programs are linked with.
+    set(PILEUS_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     add_library(pileus_shared SHARED ${objects})
     target_link_libraries(pileus_shared PRIVATE ${PILEUS_LINK_LIBRARIES})
     target_link_options(pileus_shared PRIVATE -Wl,--no-undefined -Wl,--gc-sections
         -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/pileus.map)
-    set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1
+    set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PILEUS_SOVERSION}
         LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/pileus.map")
     list(APPEND libraries pileus_shared)
     set(PILEUS_HAS_SHARED TRUE)

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages and a tar that may lie anywhere, by cpack: the program, the shared library, what programs are built with.
-# in: components program, library, dev -> out: pileus_*.deb, libpileus1_*.deb, libpileus-dev_*.deb; pileus-*.tar.gz
+# in: components program, library, dev -> out: pileus_*.deb, libpileus0.20_*.deb (by the soname), libpileus-dev_*.deb
 # docs/packages.md; tools/release builds and tries them. Libraries lie where Debian has them with -DCMAKE_INSTALL_PREFIX=/usr.
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/pileus" RENAME copyright COMPONENT program)
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libpileus1" RENAME copyright COMPONENT library)
+if(PILEUS_HAS_SHARED)
+    install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libpileus${PILEUS_SOVERSION}"
+        RENAME copyright COMPONENT library)
+endif()
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libpileus-dev" RENAME copyright COMPONENT dev)
 
 set(CPACK_PACKAGE_NAME pileus)
@@ -25,16 +28,27 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pileus)
 # Loaded when a scene asks for them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libnetcdf19, libeccodes0, libassimp5, libtiff6, libsdl2-2.0-0, libegl1")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libpileus1)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libpileus${PILEUS_SOVERSION})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libnetcdf19, libeccodes0, libassimp5, libtiff6, libegl1")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libpileus-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libpileus1 (= ${PROJECT_VERSION})")
-# For programs that take the static library.
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libopenexr-dev, libpng-dev, zlib1g-dev, libblosc-dev, libglm-dev")
+# What pileus.pc names for programs that take the static library, pkg-config wants for all.
+set(dev_needs)
+foreach(row "OPENEXR libopenexr-dev" "PNG libpng-dev" "ZLIB zlib1g-dev" "BLOSC libblosc-dev")
+    separate_arguments(row)
+    list(POP_FRONT row name)
+    if(PILEUS_WITH_${name})
+        list(APPEND dev_needs ${row})
+    endif()
+endforeach()
+if(PILEUS_HAS_SHARED)
+    list(PREPEND dev_needs "libpileus${PILEUS_SOVERSION} (= ${PROJECT_VERSION})")
+endif()
+list(JOIN dev_needs ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libglm-dev)
 foreach(name "PROGRAM pictures of clouds: the program" "LIBRARY pictures of clouds: the shared library"
         "DEV pictures of clouds: headers and libraries to build with")
     string(REGEX MATCH "^[A-Z]+" component "${name}")

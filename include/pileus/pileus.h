@@ -360,9 +360,9 @@ PILEUS_API pileus_code pileus_session_step(pileus_session* session, uint32_t uni
 
 /** Ends one call early, the one that runs or else the next: pileus_session_step returns PILEUS_OK
  * with fewer units in `done`; pileus_session_render of a marched picture PILEUS_ERROR_CHECK, and
- * its buffers are not to be shown. The one function of a session that any thread may call while
- * another uses it, a signal handler, too. Nothing happens where `session` is null, or a flight's.
- */
+ * its buffers are not to be shown; it counts as a picture for what goes by their number. The one
+ * function of a session that any thread may call while another uses it, a signal handler, too.
+ * Nothing happens where `session` is null, a flight's, or drawn by pileus_clouds_render. */
 PILEUS_API void pileus_session_cancel(pileus_session* session);
 
 typedef enum pileus_format {
@@ -767,10 +767,10 @@ PILEUS_API void pileus_orbit(const double position_m[3], const double target_m[3
 #define PILEUS_RGBA8_SRGB PILEUS_FORMAT_RGBA8_SRGB
 #define PILEUS_RGBA16F PILEUS_FORMAT_RGBA16F
 #define PILEUS_RGBA32F PILEUS_FORMAT_RGBA32F
-typedef pileus_lamp_type pileus_light_type;
-typedef pileus_lamp pileus_light;
-typedef pileus_progress pileus_light_info;
-typedef pileus_environment pileus_sky;
+#define pileus_light_type pileus_lamp_type
+#define pileus_light pileus_lamp
+#define pileus_light_info pileus_progress
+#define pileus_sky pileus_environment
 #if defined(__GNUC__)
 #define PILEUS_OLD(name) __attribute__((deprecated("use " name)))
 #else

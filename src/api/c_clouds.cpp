@@ -127,9 +127,7 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
         PILEUS_TRY(take_target(given, clouds->sky->session->camera(), target));
         std::uint64_t hash = 0;
         target.hash = given.hash != nullptr ? &hash : nullptr;
-        const Status drawn = clouds->clouds.render(target);
-        clouds->sky->cancelled = false;
-        PILEUS_TRY(drawn);
+        PILEUS_TRY(clouds->clouds.render(target));
         if (given.hash != nullptr) *given.hash = hash;
         return Status::ok();
     });

@@ -79,9 +79,7 @@ Status render_frame(const pileus_frame& f, pileus_session& session) {
     PILEUS_TRY(take_target(f, session.session->camera(), target));
     std::uint64_t hash = 0;
     target.hash = f.hash != nullptr ? &hash : nullptr;
-    const Status drawn = session.session->render(target);
-    session.cancelled = false;
-    PILEUS_TRY(drawn);
+    PILEUS_TRY(session.session->render(target));
     if (f.hash != nullptr) *f.hash = hash;
     tell_accidents(session);
     return Status::ok();
@@ -111,10 +109,10 @@ pileus_code pileus_session_progress(const pileus_session* session, pileus_progre
 pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_t* done,
                                 pileus_error* error) {
     if (session == nullptr) return no_session(error);
+    const CancelEnd end(*session);
     return call(*session, error, [&]() -> Status {
         std::uint64_t traced = 0;
         const Status status = session->session->step(units, traced);
-        session->cancelled = false;
         if (done != nullptr) *done = std::uint32_t(traced);
         return status;
     });
@@ -127,6 +125,7 @@ void pileus_session_cancel(pileus_session* session) {
 pileus_code pileus_session_render(pileus_session* session, const pileus_frame* frame,
                                   pileus_error* error) {
     if (session == nullptr) return no_session(error);
+    const CancelEnd end(*session);
     return call(*session, error, [&]() -> Status {
         pileus_frame f;
         if (!take(frame, f)) return no_struct("frame");

@@ -14,13 +14,43 @@ namespace {
 
 constexpr std::uint32_t kMaxNumbers = 64;
 
+/// Whether one of two keys is the other, or a table around it.
+bool overlap(std::string_view a, std::string_view b) {
+    if (a.size() > b.size()) std::swap(a, b);
+    return b.substr(0, a.size()) == a && (b.size() == a.size() || b[a.size()] == '.');
+}
+
+std::string_view key_of(std::string_view setting) {
+    const std::string_view key = setting.substr(0, setting.find('='));
+    const std::size_t first = key.find_first_not_of(' '), last = key.find_last_not_of(' ');
+    return first == std::string_view::npos ? key : key.substr(first, last + 1 - first);
+}
+
+/// What sliders have set before: the last setting of a key goes, unless one after it is of a table
+/// around it, or of a key within it.
+void drop_earlier(const std::string& key, std::vector<std::string>& set) {
+    for (std::size_t i = set.size(); i > 0; --i) {
+        const std::string_view other = key_of(set[i - 1]);
+        if (!overlap(key, other)) continue;
+        if (other == key) set.erase(set.begin() + std::ptrdiff_t(i) - 1);
+        return;
+    }
+}
+
+/// As TOML: a whole number where it is one, so that keys of both kinds take it.
+std::string toml_number(double value) {
+    if (value == std::floor(value) && std::fabs(value) < 0x1p63)
+        return std::to_string(std::int64_t(value));
+    const std::string text = number_text(value);
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
 Status set_key(Scene& scene, const std::string& key, const std::string& value) {
     if (key.empty() || key.find_first_of("= \t\n") != std::string::npos)
         return Status::bad_input("key: " + printable(key.substr(0, 60)) +
                                  ", allowed: the name of a key, such as medium.0.albedo");
     std::vector<std::string> set = scene.overrides;
-    // A slider sets the same key again and again.
-    if (!set.empty() && set.back().compare(0, key.size() + 1, key + "=") == 0) set.pop_back();
+    drop_earlier(key, set);
     set.push_back(key + "=" + value);
     Scene next;
     PILEUS_TRY(
@@ -89,7 +119,7 @@ pileus_code pileus_scene_set_numbers(pileus_scene* scene, const char* key, const
             if (!std::isfinite(values[i]))
                 return Status::bad_input("values[" + std::to_string(i) +
                                          "]: " + number_text(values[i]) + ", allowed: finite");
-            text += (i > 0 ? "," : "") + number_text(values[i]);
+            text += (i > 0 ? "," : "") + toml_number(values[i]);
         }
         return set_key(scene->scene, key, count > 1 ? "[" + text + "]" : text);
     });

@@ -197,6 +197,18 @@ pileus_code call(const pileus_session& session, pileus_error* error, Work work) 
     return host.block != nullptr ? call_in_block(host, error, work) : call(&host, error, work);
 }
 
+/// At the end of a call that pileus_session_cancel ends: the next one is whole again.
+class CancelEnd {
+public:
+    explicit CancelEnd(pileus_session& session) : session_(session) {}
+    CancelEnd(const CancelEnd&) = delete;
+    CancelEnd& operator=(const CancelEnd&) = delete;
+    ~CancelEnd() { session_.cancelled = false; }
+
+private:
+    pileus_session& session_;
+};
+
 /// One user less; the last one frees it.
 void leave(pileus_session* session);
 

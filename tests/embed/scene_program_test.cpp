@@ -76,6 +76,34 @@ TEST_CASE("scene by program: keys that are set are the overrides of a scene that
     CHECK(dump_of(again.get()) == text);
 }
 
+TEST_CASE("scene by program: sliders that take turns leave one setting of each") {
+    const SceneHandle scene = scene_of(kSmallCumulus, {"medium.0.phase.g=0.2"});
+    Outcome out;
+    const auto number = [&](const char* key, double value) {
+        return pileus_scene_set_numbers(scene.get(), key, &value, 1, &out.error);
+    };
+    for (int i = 0; i < 300; ++i) {
+        REQUIRE(number("sun.azimuth_deg", 0.5 + i) == PILEUS_OK);
+        REQUIRE(number("sun.elevation_deg", 0.25 * i) == PILEUS_OK);
+    }
+    REQUIRE(number("medium.0.phase.g", 0.5) == PILEUS_OK);
+    const SceneHandle other =
+        scene_of(kSmallCumulus,
+                 {"medium.0.phase.g=0.5", "sun.azimuth_deg=299.5", "sun.elevation_deg=74.75"});
+    CHECK(dump_of(scene.get()) == dump_of(other.get()));
+    // A table that is set after its key, and before it.
+    REQUIRE(pileus_scene_set(scene.get(), "sun", "{azimuth_deg = 1, elevation_deg = 2}",
+                             &out.error) == PILEUS_OK);
+    REQUIRE(number("sun.elevation_deg", 3) == PILEUS_OK);
+    CHECK(dump_of(scene.get()).find("azimuth_deg = 1\nelevation_deg = 3\n") != std::string::npos);
+    // Whole numbers of any size.
+    REQUIRE(number("seed", 1e16) == PILEUS_OK);
+    CHECK(dump_of(scene.get()).find("seed = 10000000000000000\n") != std::string::npos);
+    CHECK(number("seed", 1e19) == PILEUS_ERROR_INPUT);
+    CHECK(number("sun.azimuth_deg", 12345678901234567890.0) == PILEUS_ERROR_INPUT);
+    CHECK_MESSAGE(out.line().find("allowed: number in") != std::string::npos, out.line());
+}
+
 TEST_CASE("scene by program: what is wrong is a line, and the scene stays as it was") {
     const SceneHandle scene = scene_of(kSmallCumulus, {});
     const std::string before = dump_of(scene.get());
@@ -162,6 +190,13 @@ TEST_CASE("cancel: one step ends early, and the next is whole") {
     pileus_session_cancel(s);
     host.check(pileus_session_step(s, 4, &done, &host.out.error));
     CHECK(done == 0);
+    host.check(pileus_session_step(s, 4, &done, &host.out.error));
+    CHECK(done == 4);
+    // A call that is refused is the one that it ends.
+    pileus_session_cancel(s);
+    auto wrong = pileus_frame_default();
+    wrong.format = 99;
+    CHECK(pileus_session_render(s, &wrong, &host.out.error) == PILEUS_ERROR_INPUT);
     host.check(pileus_session_step(s, 4, &done, &host.out.error));
     CHECK(done == 4);
     // While it runs, from another thread.
