@@ -48,7 +48,6 @@ if(PILEUS_HAS_SHARED)
     list(PREPEND dev_needs "libpileus${PILEUS_SOVERSION} (= ${PROJECT_VERSION})")
 endif()
 list(JOIN dev_needs ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libglm-dev)
 foreach(name "PROGRAM pictures of clouds: the program" "LIBRARY pictures of clouds: the shared library"
         "DEV pictures of clouds: headers and libraries to build with")
     string(REGEX MATCH "^[A-Z]+" component "${name}")

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++17 interface of pileus: owners and GLM types over the functions of pileus.h.
+// The C++17 interface of pileus, all of it: owners over the functions of pileus.h.
 //
-// Headers alone, so that it suits any compiler and any build of the library. Nothing throws, and
-// neither exceptions nor RTTI are needed; what a host lends must not throw either. What may fail
-// returns a Status or a Result, which holds pileus.h's code and message.
+// One header without any library, so that it suits any compiler and any build of the library.
+// Nothing throws, and neither exceptions nor RTTI are needed; what a host lends must not throw
+// either. What may fail returns a Status or a Result, which holds pileus.h's code and message.
 //
 // - Lengths are metres, angles degrees, radiances linear R G B. x points east, y north, z up; an
 //   azimuth counts from north (+y) towards east (+x).
+// - Vectors are taken from any type with members x, y, z, and turn into it: GLM's, your own.
+// Matrices
+//   are anything whose m[column][row] is a number.
 // - Owners move and are not copied; an empty one answers every call with kBadInput. One thread uses
 //   a session at a time; scenes and worlds are read only and may be shared.
 // - The namespace is pileus::embed, as the library keeps its own Scene, World and Session in pileus
@@ -18,14 +21,412 @@
 
 #include <pileus/pileus.h>
 
-#include <glm/mat4x4.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
-#include <pileus/pileus_host.hpp>
-#include <pileus/pileus_types.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pileus::embed {
+
+// ---- Results and what a host lends -------------------------------------------------------
+
+enum class Code : std::int32_t {
+    kOk = PILEUS_OK,
+    kCheckFailed = PILEUS_ERROR_CHECK,  ///< kernels that give other bits than they must
+    kBadInput = PILEUS_ERROR_INPUT,     ///< an argument, a scene or a file of it
+    kLimit = PILEUS_ERROR_LIMIT,        ///< out of memory, or more than a limit allows
+    kIo = PILEUS_ERROR_IO               ///< reading or writing failed half way
+};
+
+/// How a call ended: true in an `if` where it worked, else with a line for each fault.
+class [[nodiscard]] Status {
+public:
+    Status() = default;
+    Status(Code code, std::string message) : code_(code), message_(std::move(message)) {}
+
+    explicit operator bool() const { return code_ == Code::kOk; }
+    Code code() const { return code_; }
+    const std::string& message() const { return message_; }
+
+private:
+    Code code_ = Code::kOk;
+    std::string message_;
+};
+
+/// A value, or why there is none. Without one `*result` is an empty T.
+template <class T>
+class [[nodiscard]] Result {
+public:
+    Result(T value) : value_(std::move(value)) {}
+    Result(Status status) : status_(std::move(status)) {}
+
+    explicit operator bool() const { return bool(status_); }
+    const Status& status() const { return status_; }
+    Code code() const { return status_.code(); }
+    const std::string& message() const { return status_.message(); }
+
+    T& operator*() & { return value_; }
+    const T& operator*() const& { return value_; }
+    T&& operator*() && { return std::move(value_); }
+    T* operator->() { return &value_; }
+    const T* operator->() const { return &value_; }
+
+private:
+    Status status_;
+    T value_{};
+};
+
+/// Called with each index in [0, count) by Host::run.
+class Body {
+public:
+    Body(void (*body)(void*, std::uint32_t), void* data) : body_(body), data_(data) {}
+    void operator()(std::uint32_t index) const { body_(data_, index); }
+
+private:
+    void (*body_)(void*, std::uint32_t);
+    void* data_;
+};
+
+/// What the library may use. All may be left as it is: all threads, the C++ runtime's memory.
+/// Worlds and sessions keep a copy as long as they need it. Functions never come from two threads
+/// of one call at once, but for `allocate` and `release`; where `run` is given, they may come from
+/// its threads. None of them may throw.
+struct Host {
+    std::uint32_t threads = 0;       ///< 0: as many as there are processors; at most 1024
+    std::string isa;                 ///< "scalar", "avx2", ...; empty: the widest of this machine
+    std::uint64_t memory_limit = 0;  ///< bytes by the plan; 0: the default limit
+    /// Arrays: at least `bytes` at a multiple of `alignment`, or null. Both or neither.
+    std::function<void*(std::size_t bytes, std::size_t alignment)> allocate;
+    std::function<void(void* memory)> release;
+    /// Calls body(index) once for each index in [0, count), in any order, and returns when all have
+    /// returned. Empty: as in pileus.h.
+    std::function<void(std::uint32_t count, Body body)> run;
+    std::function<void(const char* line)> log;  ///< what is doubtful about a picture
+    std::function<void(const char* stage, double share)> progress;  ///< share done, 0 to 1
+    std::function<bool()> stop;  ///< asked now and then; true ends a step early
+};
+
+namespace detail {
+
+/// A struct of pileus.h, cleared and with its size.
+template <class T>
+T cleared() {
+    T made;
+    pileus_init(&made, static_cast<std::uint32_t>(sizeof made));
+    return made;
+}
+
+/// call(error) as a Status.
+template <class Call>
+Status status_of(Call call) {
+    pileus_error error = cleared<pileus_error>();
+    const pileus_code code = call(&error);
+    if (code == PILEUS_OK) return {};
+    return {static_cast<Code>(code), error.message};
+}
+
+/// What call(text, size, needed, error) writes, without its zero.
+template <class Call>
+Result<std::string> text_of(Call call) {
+    std::size_t needed = 0;
+    Status status =
+        status_of([&](pileus_error* error) { return call(nullptr, 0, &needed, error); });
+    if (!status) return status;
+    std::string text(needed, '\0');
+    status = status_of([&](pileus_error* error) { return call(&text[0], needed, &needed, error); });
+    if (!status) return status;
+    text.pop_back();
+    return text;
+}
+
+/// How many, for the C interface; more than it can count is more than it takes.
+inline std::uint32_t count_of(std::size_t n) {
+    return n < UINT32_MAX ? static_cast<std::uint32_t>(n) : UINT32_MAX;
+}
+
+template <class Vector, class Number>
+void store(const Vector& from, Number (&to)[3]) {
+    to[0] = from.x, to[1] = from.y, to[2] = from.z;
+}
+
+template <class Matrix>
+void store(const Matrix& from, double (&to)[16]) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            to[4 * column + row] = static_cast<double>(from[column][row]);
+}
+
+/// A host that stays where it is, and the functions that lead to its own.
+struct Lent {
+    Host host;
+    pileus_host given = cleared<pileus_host>();
+
+    explicit Lent(const Host& from) : host(from) {
+        given.threads = host.threads;
+        given.isa = host.isa.empty() ? nullptr : host.isa.c_str();
+        given.memory_limit = host.memory_limit;
+        given.user = this;
+        if (host.allocate)
+            given.allocate = [](void* user, std::size_t bytes, std::size_t alignment) {
+                return of(user).allocate(bytes, alignment);
+            };
+        if (host.release)
+            given.release = [](void* user, void* memory) { of(user).release(memory); };
+        if (host.run)
+            given.run = [](void* user, std::uint32_t count, void (*body)(void*, std::uint32_t),
+                           void* data) { of(user).run(count, Body(body, data)); };
+        if (host.log) given.log = [](void* user, const char* line) { of(user).log(line); };
+        if (host.progress)
+            given.progress = [](void* user, const char* stage, double share) {
+                of(user).progress(stage, share);
+            };
+        if (host.stop) given.stop = [](void* user) { return of(user).stop() ? 1 : 0; };
+    }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+
+private:
+    static const Host& of(void* user) { return static_cast<const Lent*>(user)->host; }
+};
+
+using SharedLent = std::shared_ptr<const Lent>;
+
+// What frees a handle keeps the hosts that it was made with, and outlives it.
+struct FreeScene {
+    void operator()(pileus_scene* scene) const { pileus_scene_free(scene); }
+};
+struct FreeWorld {
+    SharedLent host;
+    void operator()(pileus_world* world) const { pileus_world_free(world); }
+};
+struct FreeSession {
+    SharedLent host;
+    std::vector<SharedLent> lenders;  ///< of its arrays, which a hand-over exchanges with them
+
+    void lent_by(const SharedLent& lender) {
+        for (const SharedLent& own : lenders)
+            if (own == lender) return;
+        lenders.push_back(lender);
+    }
+    void operator()(pileus_session* session) const { pileus_session_free(session); }
+};
+
+}  // namespace detail
+
+// ---- Values ------------------------------------------------------------------------------
+
+/// Three numbers, from and to any type with members x, y, z.
+template <class T>
+struct Vector3 {
+    T x{}, y{}, z{};
+
+    constexpr Vector3() = default;
+    constexpr explicit Vector3(T all) : x(all), y(all), z(all) {}
+    template <class A, class B, class C>
+    constexpr Vector3(A a, B b, C c)
+        : x(static_cast<T>(a)), y(static_cast<T>(b)), z(static_cast<T>(c)) {}
+    template <class V, class = decltype(std::declval<const V&>().z)>
+    constexpr Vector3(const V& v)
+        : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+    template <class V, class = decltype(std::declval<const V&>().z)>
+    constexpr operator V() const {
+        V v{};
+        v.x = static_cast<decltype(v.x)>(x), v.y = static_cast<decltype(v.y)>(y);
+        v.z = static_cast<decltype(v.z)>(z);
+        return v;
+    }
+    friend constexpr bool operator==(const Vector3& a, const Vector3& b) {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+    friend constexpr bool operator!=(const Vector3& a, const Vector3& b) { return !(a == b); }
+};
+/// Two of them.
+template <class T>
+struct Vector2 {
+    T x{}, y{};
+
+    constexpr Vector2() = default;
+    constexpr explicit Vector2(T all) : x(all), y(all) {}
+    template <class A, class B>
+    constexpr Vector2(A a, B b) : x(static_cast<T>(a)), y(static_cast<T>(b)) {}
+    template <class V, class = decltype(std::declval<const V&>().y)>
+    constexpr Vector2(const V& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)) {}
+    template <class V, class = decltype(std::declval<const V&>().y)>
+    constexpr operator V() const {
+        V v{};
+        v.x = static_cast<decltype(v.x)>(x), v.y = static_cast<decltype(v.y)>(y);
+        return v;
+    }
+    friend constexpr bool operator==(const Vector2& a, const Vector2& b) {
+        return a.x == b.x && a.y == b.y;
+    }
+    friend constexpr bool operator!=(const Vector2& a, const Vector2& b) { return !(a == b); }
+};
+using Vec3 = Vector3<double>;
+using Rgb = Vector3<float>;
+using Size3 = Vector3<std::uint32_t>;
+using Size2 = Vector2<std::uint32_t>;
+
+/// Sizes before memory.
+struct Plan {
+    Size3 cells{0};                 ///< of the media's grid
+    std::uint64_t peak_bytes = 0;   ///< of a world and one session together, an upper bound
+    std::uint64_t world_bytes = 0;  ///< of that the world's own, shared by its sessions
+    Vec3 low_m{0}, high_m{0};       ///< corners of the media's box
+};
+
+/// Particles from memory; strides are the bytes from one to the next. Their unit, and what
+/// `density` means, is what the scene says of its file of particles.
+struct Particles {
+    std::uint64_t count = 0;
+    const float* position = nullptr;    ///< x, y, z of each; -1e12 to 1e12
+    const float* radius = nullptr;      ///< above 0, to 1e12; null where the scene has radius_m
+    const float* density = nullptr;     ///< 0 to 1e12; null: 1
+    const std::uint64_t* id = nullptr;  ///< up to 2^53, for density.share; null: none
+    const float* velocity = nullptr;    ///< x, y, z of each, lengths per second; null: at rest
+    std::uint32_t position_stride = 3 * sizeof(float), radius_stride = sizeof(float);
+    std::uint32_t density_stride = sizeof(float), id_stride = sizeof(std::uint64_t);
+    std::uint32_t velocity_stride = 3 * sizeof(float);
+    const float* colour = nullptr;    ///< factors on the medium's albedo, 0 to 1; null: 1
+    const float* emission = nullptr;  ///< factors on the medium's emission, 0 to 1e9; null: 1
+    std::uint32_t colour_stride = 3 * sizeof(float), emission_stride = 3 * sizeof(float);
+};
+
+/// Densities from memory instead of a scene's: values[(z * size.y + y) * size.x + x] fill the
+/// bounds_m of medium number `medium`; or `particles`, where that medium is a file of particles,
+/// which need not exist. Copied.
+struct Density {
+    std::uint32_t medium = 0;
+    Size3 size{0};                         ///< 1 to 4096 each
+    const float* values = nullptr;         ///< finite, not negative
+    const Particles* particles = nullptr;  ///< not null: `size` and `values` do not count
+};
+
+/// A perspective or, where height_m > 0, an orthographic camera.
+struct Camera {
+    Size2 size{0};                    ///< pixels; 0: as before
+    Vec3 position_m{0}, target_m{0};  ///< of the eye, and what it looks at
+    Vec3 up{0, 0, 1};
+    double fov_deg = 40;  ///< vertical, perspective only; in (0, 180)
+    double height_m = 0;  ///< of the picture, orthographic only
+    double near_m = 0,
+           far_m = 0;  ///< for depth buffers only; far_m 0: infinite. Nothing is clipped
+};
+
+/// How a projection's clip space counts depth: kZero with GLM_FORCE_DEPTH_ZERO_TO_ONE, Vulkan and
+/// Direct3D. Reversed and infinite projections are told by the matrix.
+enum class Clip { kMinusOne = PILEUS_CLIP_MINUS_ONE, kZero = PILEUS_CLIP_ZERO };
+
+struct Sun {
+    double azimuth_deg = 0, elevation_deg = 45;  ///< elevation in [-90, 90]
+    Rgb irradiance{1};                           ///< on a plane that faces it, >= 0
+    bool present = true;
+};
+
+/// A light besides sun and sky; docs/lights.md has the units.
+struct Lamp {
+    enum class Type {
+        kPoint = PILEUS_LAMP_POINT,
+        kSpot = PILEUS_LAMP_SPOT,
+        kDirectional = PILEUS_LAMP_DIRECTIONAL
+    };
+    Type type = Type::kPoint;
+    Vec3 position_m{0};                          ///< point, spot
+    Vec3 direction{0, 0, -1};                    ///< spot: where it shines
+    double cone_deg = 40, penumbra_deg = 0;      ///< spot: (0, 360]; up to half of that
+    double radius_m = 0;                         ///< point, spot; 0: a point
+    std::uint32_t shadow_samples = 0;            ///< up to 64; 0: 8; 1: shadows of a point
+    double azimuth_deg = 0, elevation_deg = 45;  ///< directional: where it stands, as the sun
+    Rgb light{1};  ///< radiant intensity; directional: irradiance on a plane that faces it
+};
+
+/// Of one radiance, or of a picture: latitude-longitude, rows from the zenith, three floats a texel
+/// (docs/scene.md, "Sky map"). Copied.
+struct Environment {
+    Rgb radiance{0};              ///< used without a map; >= 0
+    Size2 map_size{0};            ///< columns, rows; columns = 2 rows; 0: no map
+    const float* map = nullptr;   ///< [row][column][3]; null: keep the map there is
+    double map_scale = 1;         ///< on its values; 0 counts as 1
+    double map_rotation_deg = 0;  ///< from north towards east
+    bool present = true;
+};
+
+struct Ground {
+    double altitude_m = 0;
+    double albedo = 0.2;  ///< in [0, 1]
+    bool present = true;
+};
+
+enum class Depth : std::uint32_t {
+    kDistance = PILEUS_DEPTH_DISTANCE,  ///< metres along each pixel's ray; infinity: nothing
+    kViewZ = PILEUS_DEPTH_VIEW_Z,       ///< metres along the view's axis; infinity: nothing
+    kBuffer = PILEUS_DEPTH_BUFFER  ///< a depth buffer of the camera's projection, 0..1; its far
+                                   ///< end: nothing
+};
+
+/// Opaque things of the caller, which end rays.
+struct DepthImage {
+    const float* values = nullptr;  ///< as many as the camera has pixels; null: nothing solid
+    Depth kind = Depth::kDistance;
+    std::int64_t stride = 0;  ///< bytes from row to row; 0: rows lie close
+    bool bottom_up = false;   ///< the first row in memory is the picture's lowest, as in OpenGL
+};
+
+enum class Format : std::uint32_t {
+    kRgba8Srgb =
+        PILEUS_FORMAT_RGBA8_SRGB,  ///< 4 bytes a pixel, tone curve and sRGB as the program's PNGs
+    kRgba16F = PILEUS_FORMAT_RGBA16F,  ///< 4 IEEE halves, linear radiance
+    kRgba32F = PILEUS_FORMAT_RGBA32F   ///< 4 floats, linear radiance
+};
+
+enum class Blend : std::uint32_t {
+    kReplace = PILEUS_BLEND_REPLACE,  ///< the whole picture; alpha: the media's
+    kOver = PILEUS_BLEND_OVER,        ///< the media over what the buffer holds
+    kMedia = PILEUS_BLEND_MEDIA       ///< the media alone, premultiplied by their alpha
+};
+
+/// Buffers of the caller, for one picture.
+struct Frame {
+    void* colour = nullptr;  ///< first byte of the first row in memory; null: none
+    Format format = Format::kRgba8Srgb;
+    Blend blend = Blend::kReplace;
+    std::int64_t colour_stride = 0;  ///< bytes from row to row; 0: rows lie close
+    bool bottom_up = false;    ///< the first row in memory is the picture's lowest; both buffers
+    float exposure_stops = 0;  ///< 8 bit only: doubles or halves the light
+    float* depth = nullptr;    ///< where half of the light is gone, or the opaque thing; null: none
+    Depth depth_kind = Depth::kDistance;
+    std::int64_t depth_stride = 0;
+    std::uint64_t* hash = nullptr;  ///< of the whole picture, as the program's; null: none is made
+};
+
+/// What a step counts.
+struct Progress {
+    std::uint32_t whole = 0;         ///< units that a first picture should have; 0: there are none
+    std::uint64_t unit_photons = 0;  ///< photons or paths of one unit
+    std::uint64_t units = 0;         ///< of light that the next picture shows
+    std::string unit;                ///< "generation", "sample" or ""
+};
+
+/// What a frame may cost, as pileus_work; 0: as the scene has it.
+struct Work {
+    std::uint32_t scale = 0, temporal = 0, steps = 0, light_refresh = 0;
+    std::uint64_t photons = 0;
+};
+
+/// Counts of what was done, to see that a frame makes nothing again.
+struct Stats {
+    std::uint32_t prepared = 0;  ///< 1: once for all; more where a light appeared
+    std::uint64_t pictures = 0, units = 0;
+    std::uint64_t shared_bytes = 0;  ///< of arrays of the world
+    std::uint64_t own_bytes = 0;     ///< peak of the session's own arrays by its plan
+    double render_s = 0;             ///< wall time of the last render
+    double stages_s = 0;             ///< of that in named stages
+};
+
+// ---- Scenes, worlds, sessions ------------------------------------------------------------
 
 /// "major.minor.patch" of the library that is linked, which may differ from this header's.
 inline const char* version() { return pileus_version(); }
@@ -70,6 +471,32 @@ public:
         plan.low_m = {c.low_m[0], c.low_m[1], c.low_m[2]};
         plan.high_m = {c.high_m[0], c.high_m[1], c.high_m[2]};
         return plan;
+    }
+
+    /// Sets a key as "key=value" of `overrides` does: set("medium.0.albedo", "0.9"). kBadInput, and
+    /// the scene is as it was.
+    Status set(const std::string& key, const std::string& value) {
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_scene_set(get(), key.c_str(), value.c_str(), error);
+        });
+    }
+    Status set(const std::string& key, double value) {
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_scene_set_numbers(get(), key.c_str(), &value, 1, error);
+        });
+    }
+    Status set(const std::string& key, const Vec3& value) {
+        const double numbers[3] = {value.x, value.y, value.z};
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_scene_set_numbers(get(), key.c_str(), numbers, 3, error);
+        });
+    }
+    /// TOML that reads as the same scene.
+    Result<std::string> dump() const {
+        return detail::text_of(
+            [&](char* text, std::size_t size, std::size_t* needed, pileus_error* error) {
+                return pileus_scene_dump(get(), text, size, needed, error);
+            });
     }
 
     explicit operator bool() const { return bool(handle_); }
@@ -200,9 +627,9 @@ public:
     /// By matrices of any precision, such as those of glm::lookAt and glm::perspective: world to
     /// view (turns and shifts alone; the view looks along -z, y up), and view to clip (perspective
     /// or orthographic, may be off-centre). `size`: pixels, 0: as before. Errors: kBadInput.
-    template <class T, glm::qualifier Q>
-    Status set_camera(const glm::mat<4, 4, T, Q>& view, const glm::mat<4, 4, T, Q>& projection,
-                      Clip clip = Clip::kMinusOne, glm::uvec2 size = glm::uvec2(0)) {
+    template <class View, class Projection>
+    Status set_camera(const View& view, const Projection& projection, Clip clip = Clip::kMinusOne,
+                      Size2 size = {}) {
         double v[16], p[16];
         detail::store(view, v);
         detail::store(projection, p);
@@ -221,7 +648,7 @@ public:
         return call(pileus_session_set_sun, &c);
     }
 
-    Status set_sky(const Sky& sky) {
+    Status set_environment(const Environment& sky) {
         auto c = detail::cleared<pileus_environment>();
         c.present = sky.present ? 1 : 0;
         detail::store(sky.radiance, c.radiance);
@@ -243,9 +670,9 @@ public:
 
     /// In place of all lights that the session had, the scene's included. kBadInput: more than 64,
     /// or what the scene's method has no lights for.
-    Status set_lights(const std::vector<SceneLight>& lights) {
+    Status set_lamps(const std::vector<Lamp>& lamps) {
         std::vector<pileus_lamp> given;
-        for (const SceneLight& light : lights) {
+        for (const Lamp& light : lamps) {
             given.push_back(detail::cleared<pileus_lamp>());
             pileus_lamp& c = given.back();
             c.type = static_cast<std::uint32_t>(light.type);
@@ -262,9 +689,19 @@ public:
         });
     }
 
+#ifndef PILEUS_NO_OLD_NAMES
+    [[deprecated("use set_lamps")]] Status set_lights(const std::vector<Lamp>& lamps) {
+        return set_lamps(lamps);
+    }
+    [[deprecated("use set_environment")]] Status set_sky(const Environment& environment) {
+        return set_environment(environment);
+    }
+    [[deprecated("use progress")]] Result<Progress> light() const { return progress(); }
+#endif
+
     /// Moves all media: turned about the z axis through the world's origin (counter-clockwise seen
     /// from above), then shifted. kBadInput in a world with solids.
-    Status set_placement(const glm::dvec3& offset_m, double yaw_deg = 0) {
+    Status set_placement(const Vec3& offset_m, double yaw_deg = 0) {
         auto c = detail::cleared<pileus_placement>();
         detail::store(offset_m, c.offset_m);
         c.yaw_deg = yaw_deg;
@@ -295,8 +732,8 @@ public:
         return call(pileus_session_set_work, &c);
     }
 
-    /// The next frame's work by how long the last one took, 0 before the first; `governor` is
-    /// cleared by PILEUS_INIT and has its target_s set. kBadInput: a time out of range.
+    /// The next frame's work by how long the last one took, 0 before the first; `governor`
+    /// begins as pileus_governor_default(). kBadInput: a time out of range.
     Result<Work> govern(pileus_governor& governor, double frame_s) const {
         auto c = detail::cleared<pileus_work>();
         Status status = detail::status_of([&](pileus_error* error) {
@@ -306,11 +743,11 @@ public:
         return Work{c.scale, c.temporal, c.steps, c.light_refresh, c.photons};
     }
 
-    Result<Light> light() const {
+    Result<Progress> progress() const {
         auto c = detail::cleared<pileus_progress>();
         Status status = call(pileus_session_progress, &c);
         if (!status) return status;
-        return Light{c.whole, c.unit_photons, c.units, c.unit};
+        return Progress{c.whole, c.unit_photons, c.units, c.unit};
     }
 
     /// Traces so many units of light for what is set now; never counts time. `done`, where not
@@ -351,15 +788,14 @@ public:
 
     /// As the program writes it (docs/report.md), JSON.
     Result<std::string> report() const {
-        std::size_t needed = 0;
-        Status status = report_into(nullptr, 0, needed);
-        if (!status) return status;
-        std::string text(needed, '\0');
-        status = report_into(&text[0], needed, needed);
-        if (!status) return status;
-        text.pop_back();
-        return text;
+        return detail::text_of(
+            [&](char* text, std::size_t size, std::size_t* needed, pileus_error* error) {
+                return pileus_session_report(get(), text, size, needed, error);
+            });
     }
+
+    /// Ends the step or the marched picture that runs, or else the next one. From any thread.
+    void cancel() { pileus_session_cancel(get()); }
 
     explicit operator bool() const { return bool(handle_); }
     pileus_session* get() const { return handle_.get(); }  ///< for pileus.h; stays owned
@@ -370,24 +806,153 @@ private:
         return detail::status_of(
             [&](pileus_error* error) { return function(get(), given, error); });
     }
-    Status report_into(char* text, std::size_t size, std::size_t& needed) const {
-        return detail::status_of([&](pileus_error* error) {
-            return pileus_session_report(get(), text, size, &needed, error);
-        });
-    }
 
     std::unique_ptr<pileus_session, detail::FreeSession> handle_;
 };
 
+// ---- Skies of many clouds ----------------------------------------------------------------
+
+/// Where a cloud stands: turned about the z axis through its kind's origin (counter-clockwise seen
+/// from above), made larger, then shifted.
+struct Cloud {
+    std::uint32_t kind = 0;
+    Vec3 offset_m{0};    ///< each within 1e7
+    double yaw_deg = 0;  ///< -360 to 360; clouds of one kind and turn share their light
+    double scale = 1;    ///< 0.01 to 100; the optical thickness stays as it is
+};
+
+/// How exact far clouds are. 0: what is in brackets.
+struct CloudDetail {
+    bool off = false;              ///< every cloud is marched whole in every picture
+    double error_px = 0;           ///< that parts of a far cloud may be off, 0.001 to 16 [0.5]
+    double near_px = 0;            ///< clouds of that size are marched in every picture [256]
+    std::uint32_t near_scale = 0;  ///< of those one pixel of so many along x and y: 1, 2, 4 [2]
+    std::uint32_t blend_frames =
+        0;                 ///< over which one impostor cross-fades to the next, to 1000 [8]
+    double sharpness = 0;  ///< texels of a far cloud for a pixel, 0.25 to 4 [1]
+    std::uint64_t frame_pixels = 0;  ///< of far clouds that one picture may draw anew [60000]
+    double sun_deg = 0;              ///< that the sun may move before clouds are lit anew [0.5]
+};
+
+/// Of the last picture.
+struct CloudStats {
+    std::uint32_t clouds = 0, visible = 0;  ///< in all; of them in the picture
+    std::uint32_t marched = 0;              ///< drawn anew for this picture
+    std::uint32_t captured = 0;             ///< far clouds whose picture was drawn anew
+    std::uint32_t lit = 0;                  ///< kinds in a turn that were lit
+    std::uint64_t marched_pixels = 0, captured_pixels = 0;
+    double worst_px = 0;  ///< largest error of a far cloud's picture, in pixels
+};
+
+/// Clouds in a sky, which keep the session of the sky: its camera, sun, air, ground, depths and
+/// frame number are those of the pictures, and are set in it.
+class Clouds {
+public:
+    Clouds() = default;
+    Clouds(Clouds&&) = default;
+    /// What was owned goes before its sky does.
+    Clouds& operator=(Clouds&& from) noexcept {
+        handle_ = std::move(from.handle_);
+        sky_ = std::move(from.sky_);
+        return *this;
+    }
+
+    /// None at first; takes the sky where it succeeds. kBadInput: a session with media.
+    static Result<Clouds> create(Session&& sky) {
+        pileus_clouds* handle = nullptr;
+        Status status = detail::status_of(
+            [&](pileus_error* error) { return pileus_clouds_create(sky.get(), &handle, error); });
+        if (!status) return status;
+        Clouds clouds;
+        clouds.handle_.reset(handle);
+        clouds.sky_ = std::move(sky);
+        return clouds;
+    }
+
+    /// A kind of cloud, and its number, from 0 on: media in boxes, with a method of sessions. World
+    /// and scene may go afterwards. Errors: kBadInput, kLimit.
+    Result<std::uint32_t> add_kind(const World& world, const Scene& scene) {
+        std::uint32_t kind = 0;
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_clouds_add_kind(get(), world.get(), scene.get(), &kind, error);
+        });
+        if (!status) return status;
+        return kind;
+    }
+
+    /// All clouds, up to 1000, in place of those that there were. One that has the number and the
+    /// place that it had keeps its pictures. Errors: kBadInput, and all are as they were.
+    Status place(const std::vector<Cloud>& clouds) {
+        std::vector<pileus_cloud> given;
+        for (const Cloud& cloud : clouds) {
+            given.push_back(detail::cleared<pileus_cloud>());
+            pileus_cloud& c = given.back();
+            c.kind = cloud.kind;
+            detail::store(cloud.offset_m, c.offset_m);
+            c.yaw_deg = cloud.yaw_deg;
+            c.scale = cloud.scale;
+        }
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_clouds_place(get(), given.data(), detail::count_of(given.size()), error);
+        });
+    }
+
+    Status set_detail(const CloudDetail& d) {
+        auto c = detail::cleared<pileus_cloud_detail>();
+        c.off = d.off ? 1 : 0;
+        c.error_px = d.error_px, c.near_px = d.near_px, c.near_scale = d.near_scale;
+        c.blend_frames = d.blend_frames, c.sharpness = d.sharpness;
+        c.frame_pixels = d.frame_pixels, c.sun_deg = d.sun_deg;
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_clouds_set_detail(get(), &c, error); });
+    }
+
+    /// Draws sky, ground and clouds for what the sky is set to now, as Session::render does.
+    Status render(const Frame& frame) {
+        const pileus_frame c = detail::frame_of(frame);
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_clouds_render(get(), &c, error); });
+    }
+
+    Result<CloudStats> stats() const {
+        auto c = detail::cleared<pileus_cloud_stats>();
+        Status status = detail::status_of(
+            [&](pileus_error* error) { return pileus_clouds_stats(get(), &c, error); });
+        if (!status) return status;
+        return CloudStats{c.clouds, c.visible,        c.marched,         c.captured,
+                          c.lit,    c.marched_pixels, c.captured_pixels, c.worst_px};
+    }
+
+    Session& sky() { return sky_; }
+
+    explicit operator bool() const { return bool(handle_); }
+    pileus_clouds* get() const { return handle_.get(); }  ///< for pileus.h; stays owned
+
+private:
+    struct Free {
+        void operator()(pileus_clouds* clouds) const { pileus_clouds_free(clouds); }
+    };
+    Session sky_;  ///< outlives the handle
+    std::unique_ptr<pileus_clouds, Free> handle_;
+};
+
 /// `position_m` turned about the vertical axis through `target_m`, counter-clockwise seen from
 /// above, by the bits of the program's animation.camera_orbit_deg.
-inline glm::dvec3 orbit(const glm::dvec3& position_m, const glm::dvec3& target_m, double degrees) {
+inline Vec3 orbit(const Vec3& position_m, const Vec3& target_m, double degrees) {
     double from[3], about[3], to[3];
     detail::store(position_m, from);
     detail::store(target_m, about);
     pileus_orbit(from, about, degrees, to);
     return {to[0], to[1], to[2]};
 }
+
+// ---- Old names, for one version more: docs/migration.md ----------------------------------
+
+#ifndef PILEUS_NO_OLD_NAMES
+using SceneLight [[deprecated("use Lamp")]] = Lamp;
+using Sky [[deprecated("use Environment")]] = Environment;
+using Light [[deprecated("use Progress")]] = Progress;
+#endif
 
 }  // namespace pileus::embed
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus_clouds.hpp: the pictures of the C interface, an owner that moves, faults.
+// pileus.hpp: the pictures of the C interface, an owner that moves, faults.
 // in: small skies -> out: checks.
 // docs/clouds.md
-#include <pileus/pileus_clouds.hpp>
+#include <pileus/pileus.hpp>
 
 #include "tests/embed/clouds_harness.h"
 
@@ -34,7 +34,7 @@ std::uint64_t hash_of(hpp::Clouds& clouds) {
 
 }  // namespace
 
-TEST_CASE("pileus_clouds.hpp: pictures and counts are those of the C interface") {
+TEST_CASE("pileus.hpp: pictures and counts are those of the C interface") {
     CloudySky c({at(0, 0, 0), at(2500, 9000, 200, 90, 1.5)});
     c.detail(false, 16);
 
@@ -74,7 +74,7 @@ TEST_CASE("pileus_clouds.hpp: pictures and counts are those of the C interface")
     CHECK_FALSE(bool(clouds.sky()));
 }
 
-TEST_CASE("pileus_clouds.hpp: faults are codes and lines") {
+TEST_CASE("pileus.hpp: faults are codes and lines") {
     hpp::Session cloud = session_of(kSmallCumulus, kMarch);
     const auto refused = hpp::Clouds::create(std::move(cloud));
     CHECK(refused.code() == hpp::Code::kBadInput);

@@ -53,7 +53,7 @@ TEST_CASE("pileus.hpp: pictures, lights and counts are those of the C interface"
         CAPTURE(method);
         host_test::Hosted c(kSmallCumulus, with(method));
         hpp::Session own = session_of(method);
-        const hpp::Light light = take(own.light());
+        const hpp::Progress light = take(own.progress());
         CHECK(light.whole == c.whole());
         c.step(c.whole());
         check(own.step(light.whole));
@@ -205,15 +205,15 @@ TEST_CASE("pileus.hpp: faults are codes and lines; what stops says how far it ca
     CHECK(session.set_sun({0, 91}).message().find("elevation") != std::string::npos);
     CHECK(session.set_camera(glm::dmat4(2), glm::dmat4(1)).code() == hpp::Code::kBadInput);
     CHECK(session.set_ground({100, 2}).code() == hpp::Code::kBadInput);
-    hpp::SceneLight light;
-    light.type = hpp::SceneLight::Type::kSpot;
-    CHECK(session.set_lights({light, light}));
-    CHECK(session.set_lights({}));
+    hpp::Lamp light;
+    light.type = hpp::Lamp::Type::kSpot;
+    CHECK(session.set_lamps({light, light}));
+    CHECK(session.set_lamps({}));
     light.cone_deg = 0;
-    CHECK(session.set_lights({light}).code() == hpp::Code::kBadInput);
+    CHECK(session.set_lamps({light}).code() == hpp::Code::kBadInput);
     CHECK(session.set_frame(-1).code() == hpp::Code::kBadInput);
     CHECK(bool(session.set_placement({100, 0, 50}, 30)));
-    CHECK(bool(session.set_sky({glm::vec3(1)})));
+    CHECK(bool(session.set_environment({glm::vec3(1)})));
 }
 
 TEST_CASE("pileus.hpp: densities of the caller are the medium") {
@@ -257,4 +257,51 @@ TEST_CASE("pileus.hpp: work and the governor are those of the C interface") {
     work.photons = 1;
     CHECK(session.set_work(work).code() == hpp::Code::kBadInput);
     CHECK_FALSE(session.govern(governor, -1));
+}
+
+TEST_CASE("pileus.hpp: any vector and any matrix will do") {
+    struct Place {
+        double x, y, z;
+    };
+    hpp::Session a = session_of("raymarch"), b = session_of("raymarch");
+    hpp::Camera camera;
+    camera.size = {24, 14};
+    camera.position_m = Place{16, -3500, 600};
+    camera.target_m = glm::vec3(0, 0, 1024);
+    const Place back = camera.position_m;
+    CHECK(back.y == -3500);
+    check(a.set_camera(camera));
+    const glm::dmat4 view = glm::lookAt(glm::dvec3(camera.position_m), glm::dvec3(camera.target_m),
+                                        glm::dvec3(0, 0, 1));
+    const glm::dmat4 projection = glm::perspective(glm::radians(40.0), 24.0 / 14, 1.0, 90000.0);
+    double v[4][4], p[4][4];
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) v[i][j] = view[i][j], p[i][j] = projection[i][j];
+    check(a.set_camera(v, p));
+    check(b.set_camera(view, projection));
+    CHECK(hash_of(a) == hash_of(b));
+}
+
+TEST_CASE("pileus.hpp: scenes are changed key by key, and calls are cancelled") {
+    hpp::Scene scene = take(hpp::Scene::parse(kSmallCumulus, {}, with("path")));
+    check(scene.set("medium.0.albedo", "0.9"));
+    check(scene.set("sun.elevation_deg", 20));
+    check(scene.set("camera.position_m", glm::dvec3(16, -3500, 700)));
+    CHECK(scene.set("medium.0.albedo", 2).code() == hpp::Code::kBadInput);
+    const std::string text = take(scene.dump());
+    CHECK(text.find("albedo = 0.9\n") != std::string::npos);
+    CHECK(text.find("position_m = [16, -3500, 700]\n") != std::string::npos);
+    hpp::Scene none;
+    CHECK(none.set("seed", 1).code() == hpp::Code::kBadInput);
+    CHECK(none.dump().code() == hpp::Code::kBadInput);
+    const hpp::World world = take(hpp::World::create(scene));
+    hpp::Session session = take(hpp::Session::create(world, scene));
+    std::uint32_t done = 9;
+    session.cancel();
+    check(session.step(3, &done));
+    CHECK(done == 0);
+    check(session.step(3, &done));
+    CHECK(done == 3);
+    hpp::Session empty;
+    empty.cancel();
 }

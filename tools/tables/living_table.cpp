@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <pileus/pileus.hpp>
 #include <string>
@@ -149,8 +151,8 @@ Session lit_session(const Flight& flight, int time, int frame, std::uint32_t mor
     Session session = take(Session::create(world, scene));
     must(session.set_camera(flight.camera(frame)));
     must(session.set_frame(frame));
-    const Light light = take(session.light());
-    must(session.step(light.whole + (light.unit == "generation" ? more : 0)));
+    const Progress progress = take(session.progress());
+    must(session.step(progress.whole + (progress.unit == "generation" ? more : 0)));
     Frame drawn;
     if (picture != nullptr) {
         drawn.colour = picture->data();
@@ -162,8 +164,8 @@ Session lit_session(const Flight& flight, int time, int frame, std::uint32_t mor
 
 /// Light of a frame: a generation, or all samples, which belong to one camera.
 std::uint32_t units_of(const Session& session) {
-    const Light light = take(session.light());
-    return light.unit == "sample" ? light.whole : 1;
+    const Progress progress = take(session.progress());
+    return progress.unit == "sample" ? progress.whole : 1;
 }
 
 // ---- Errors --------------------------------------------------------------------------------

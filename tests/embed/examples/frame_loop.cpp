@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
                                    "camera.resolution=[160,90]"}));
     const World world = take(World::create(scene));
     Session session = take(Session::create(world, scene));
-    const Light light = take(session.light());
+    const Progress progress = take(session.progress());
 
     OwnPicture own;
     for (int number = 0; number < frames; ++number) {
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
         // Light: photons stay for frames to come, paths belong to one camera.
         opaque.values = own.depth.data();
         if (over) check(session.set_depth(opaque));
-        check(session.step(number == 0 || light.unit != "generation" ? light.whole : 1));
+        check(session.step(number == 0 || progress.unit != "generation" ? progress.whole : 1));
 
         // The cloud over the picture and behind the wall.
         std::uint64_t hash = 0;

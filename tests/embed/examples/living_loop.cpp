@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <pileus/pileus.hpp>
 #include <string>
 #include <thread>
@@ -79,7 +82,7 @@ Session prepared(const Scene& scene, int frame) {
     must(session.set_camera(camera_at(frame)));
     must(session.set_sun(sun_at(frame)));
     must(session.set_frame(frame));
-    must(session.step(must(session.light()).whole));
+    must(session.step(must(session.progress()).whole));
     must(session.render({}));
     return session;
 }
