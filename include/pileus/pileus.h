@@ -369,8 +369,15 @@ typedef enum pileus_format {
     PILEUS_FORMAT_RGBA8_SRGB =
         0,                     /**< 4 bytes a pixel, tone curve and sRGB as in the program's PNGs */
     PILEUS_FORMAT_RGBA16F = 1, /**< 4 IEEE halves, linear radiance */
-    PILEUS_FORMAT_RGBA32F = 2  /**< 4 floats, linear radiance */
+    PILEUS_FORMAT_RGBA32F = 2, /**< 4 floats, linear radiance */
+    PILEUS_FORMAT_BGRA8_SRGB = 3,  /**< as RGBA8, blue first */
+    PILEUS_FORMAT_RGB10A2_SRGB = 4 /**< a 32-bit word, red in its lowest 10 bits; curve as RGBA8 */
 } pileus_format;
+
+typedef enum pileus_depth_format {
+    PILEUS_DEPTH_R32F = 0, /**< a float */
+    PILEUS_DEPTH_R16F = 1  /**< an IEEE half, of which 65504 is the largest before infinity */
+} pileus_depth_format;
 
 typedef enum pileus_blend {
     PILEUS_BLEND_REPLACE =
@@ -387,11 +394,12 @@ typedef struct pileus_frame {
     uint32_t format;       /**< a pileus_format */
     uint32_t blend;        /**< a pileus_blend */
     int32_t bottom_up; /**< not 0: the first row in memory is the picture's lowest; both buffers */
-    float exposure_stops; /**< RGBA8 only: doubles or halves the light; -100 to 100 */
-    float* depth;         /**< where half of the light is gone, or the opaque thing; null: none */
-    int64_t depth_stride; /**< bytes; 0: rows lie close */
-    uint32_t depth_kind;  /**< a pileus_depth */
-    uint64_t* hash;       /**< null: none is made; else of the whole picture, as the program's */
+    float exposure_stops;  /**< 8 and 10 bits: doubles or halves the light; -100 to 100 */
+    float* depth;          /**< where half of the light is gone, or the opaque thing; null: none */
+    int64_t depth_stride;  /**< bytes; 0: rows lie close */
+    uint32_t depth_kind;   /**< a pileus_depth */
+    uint64_t* hash;        /**< null: none is made; else of the whole picture, as the program's */
+    uint32_t depth_format; /**< a pileus_depth_format: what lies at `depth` */
 } pileus_frame;
 
 /** Draws what the session holds now. Light is not traced: see pileus_session_step. */

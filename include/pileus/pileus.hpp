@@ -378,8 +378,10 @@ struct DepthImage {
 enum class Format : std::uint32_t {
     kRgba8Srgb =
         PILEUS_FORMAT_RGBA8_SRGB,  ///< 4 bytes a pixel, tone curve and sRGB as the program's PNGs
-    kRgba16F = PILEUS_FORMAT_RGBA16F,  ///< 4 IEEE halves, linear radiance
-    kRgba32F = PILEUS_FORMAT_RGBA32F   ///< 4 floats, linear radiance
+    kRgba16F = PILEUS_FORMAT_RGBA16F,          ///< 4 IEEE halves, linear radiance
+    kRgba32F = PILEUS_FORMAT_RGBA32F,          ///< 4 floats, linear radiance
+    kBgra8Srgb = PILEUS_FORMAT_BGRA8_SRGB,     ///< as kRgba8Srgb, blue first
+    kRgb10A2Srgb = PILEUS_FORMAT_RGB10A2_SRGB  ///< a 32-bit word, red in its lowest 10 bits
 };
 
 enum class Blend : std::uint32_t {
@@ -398,6 +400,7 @@ struct Frame {
     float exposure_stops = 0;  ///< 8 bit only: doubles or halves the light
     float* depth = nullptr;    ///< where half of the light is gone, or the opaque thing; null: none
     Depth depth_kind = Depth::kDistance;
+    bool depth_halves = false;  ///< `depth` are IEEE halves, not floats
     std::int64_t depth_stride = 0;
     std::uint64_t* hash = nullptr;  ///< of the whole picture, as the program's; null: none is made
 };
@@ -585,6 +588,7 @@ inline pileus_frame frame_of(const Frame& frame) {
     c.depth = frame.depth;
     c.depth_stride = frame.depth_stride;
     c.depth_kind = static_cast<std::uint32_t>(frame.depth_kind);
+    c.depth_format = frame.depth_halves ? PILEUS_DEPTH_R16F : PILEUS_DEPTH_R32F;
     c.hash = frame.hash;
     return c;
 }

@@ -12,10 +12,10 @@ namespace {
 constexpr float kMaxStops = 100;
 
 Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
-    if (f.format > PILEUS_FORMAT_RGBA32F)
+    if (f.format > PILEUS_FORMAT_RGB10A2_SRGB)
         return Status::bad_input(
             "frame.format: " + std::to_string(f.format) +
-            ", allowed: PILEUS_FORMAT_RGBA8_SRGB, PILEUS_FORMAT_RGBA16F, PILEUS_FORMAT_RGBA32F");
+            ", allowed: a pileus_format, PILEUS_FORMAT_RGBA8_SRGB to PILEUS_FORMAT_RGB10A2_SRGB");
     if (f.blend > PILEUS_BLEND_MEDIA)
         return Status::bad_input(
             "frame.blend: " + std::to_string(f.blend) +
@@ -42,12 +42,16 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
         return Status::bad_input(
             "frame.depth_kind: " + std::to_string(f.depth_kind) +
             ", allowed: PILEUS_DEPTH_DISTANCE, PILEUS_DEPTH_VIEW_Z, PILEUS_DEPTH_BUFFER");
+    if (f.depth_format > PILEUS_DEPTH_R16F)
+        return Status::bad_input("frame.depth_format: " + std::to_string(f.depth_format) +
+                                 ", allowed: PILEUS_DEPTH_R32F, PILEUS_DEPTH_R16F");
     target.has_depth = f.depth != nullptr;
+    target.depth_halves = f.depth_format == PILEUS_DEPTH_R16F;
     if (!target.has_depth) return Status::ok();
     target.depth_kind = DepthKind(f.depth_kind);
     target.depth.first = reinterpret_cast<unsigned char*>(f.depth);
     target.depth.bottom_up = f.bottom_up != 0;
-    const auto width = std::int64_t(camera.resolution[0]) * std::int64_t(sizeof(float));
+    const auto width = std::int64_t(camera.resolution[0]) * (target.depth_halves ? 2 : 4);
     return take_stride("frame.depth", f.depth_stride, width, std::uint32_t(camera.resolution[1]),
                        target.depth);
 }

@@ -272,7 +272,7 @@ Status Clouds::render(const FrameTarget& target) {
     }
     if (target.has_depth)
         write_depths(*planes, make_camera(camera, 0, sky_->world().medium.low_m), target.depth_kind,
-                     sky_->depth_scale(), target.depth);
+                     target.depth_halves, sky_->depth_scale(), target.depth);
     if (target.hash != nullptr) *target.hash = hash_planes(*planes);
     return Status::ok();
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <utility>
 
 #include "kernels_cpu/display/tone.h"
 #include "platform/threads.h"
@@ -50,28 +51,72 @@ void fill(SrgbTable& table) {
 }
 
 /// The curve is the program's; a medium is shown as its own light would be, as far as it covers.
+Rgb<float> shown_of(const Rgba& p, PixelBlend blend, float gain) {
+    const float share = blend != PixelBlend::kReplace ? p.c[3] : 1.0f;
+    if (!(share > 0.0f)) return {};
+    const Rgb<float> shown =
+        tone_curve(Rgb<float>{p.c[0] / share, p.c[1] / share, p.c[2] / share}, gain);
+    return {shown.r * share, shown.g * share, shown.b * share};
+}
+
+/// `red`: its byte, 0 or 2; blue has the other.
 void store_8bit(const Rgba& p, PixelBlend blend, float gain, const SrgbTable* table,
-                unsigned char* to) {
-    const float alpha = p.c[3];
-    const bool part = blend != PixelBlend::kReplace;
-    const float share = part ? alpha : 1.0f;
-    Rgb<float> shown{};
-    if (share > 0.0f) {
-        shown = tone_curve(Rgb<float>{p.c[0] / share, p.c[1] / share, p.c[2] / share}, gain);
-        shown = {shown.r * share, shown.g * share, shown.b * share};
-    }
-    float out_alpha = alpha;
+                std::size_t red, unsigned char* to) {
+    const std::size_t blue = 2 - red;
+    Rgb<float> shown = shown_of(p, blend, gain);
+    float alpha = p.c[3];
     if (blend == PixelBlend::kOver) {
         const float left = 1.0f - alpha;
-        shown.r += left * table->linear[to[0]];
+        shown.r += left * table->linear[to[red]];
         shown.g += left * table->linear[to[1]];
-        shown.b += left * table->linear[to[2]];
-        out_alpha = alpha + left * (float(to[3]) / 255.0f);
+        shown.b += left * table->linear[to[blue]];
+        alpha += left * (float(to[3]) / 255.0f);
     }
-    to[0] = table->codes(shown.r);
+    to[red] = table->codes(shown.r);
     to[1] = table->codes(shown.g);
-    to[2] = table->codes(shown.b);
-    to[3] = static_cast<unsigned char>(out_alpha * 255.0f + 0.5f);
+    to[blue] = table->codes(shown.b);
+    to[3] = static_cast<unsigned char>(alpha * 255.0f + 0.5f);
+}
+
+/// Codes of 10 bits: the light at which each begins, and its own.
+struct DeepCodes {
+    static constexpr std::uint32_t kMost = 1023;
+    Buffer<float> begins, linear;
+
+    Status make() {
+        PILEUS_TRY(begins.resize(kMost + 1, "codes"));
+        PILEUS_TRY(linear.resize(kMost + 1, "codes"));
+        for (std::uint32_t i = 0; i <= kMost; ++i) {
+            linear[i] = float(linear_of_srgb(double(i) / kMost));
+            begins[i] = i == 0 ? 0.0f : float(linear_of_srgb((double(i) - 0.5) / kMost));
+        }
+        return Status::ok();
+    }
+    std::uint32_t code(float v) const {
+        std::uint32_t low = 0;
+        for (std::uint32_t step = 512; step > 0; step /= 2)
+            if (v >= begins[low + step]) low += step;
+        return low;
+    }
+};
+
+/// A word of the machine's own byte order, red in its lowest bits.
+void store_10bit(const Rgba& p, PixelBlend blend, float gain, const DeepCodes& codes,
+                 unsigned char* to) {
+    Rgb<float> shown = shown_of(p, blend, gain);
+    float alpha = p.c[3];
+    std::uint32_t word;
+    if (blend == PixelBlend::kOver) {
+        std::memcpy(&word, to, sizeof word);
+        const float left = 1.0f - alpha;
+        shown.r += left * codes.linear[word & 1023u];
+        shown.g += left * codes.linear[word >> 10 & 1023u];
+        shown.b += left * codes.linear[word >> 20 & 1023u];
+        alpha += left * (float(word >> 30) / 3.0f);
+    }
+    word = codes.code(shown.r) | codes.code(shown.g) << 10 | codes.code(shown.b) << 20 |
+           std::uint32_t(alpha * 3.0f + 0.5f) << 30;
+    std::memcpy(to, &word, sizeof word);
 }
 
 /// A row of pixels; `Load` and `Store` are of one number of it.
@@ -114,13 +159,22 @@ Status replace_8bit(const Planes& planes, int width, int height, const PixelTarg
         kernels.pixel_rows(k, b, std::uint32_t(begin), std::uint32_t(end < height ? end : height));
     });
     for (std::int64_t n : counts.span()) broken += std::uint64_t(n);
+    if (target.format != PixelFormat::kBgra8Srgb) return Status::ok();
+    parallel_for(threads, height, [&](std::int64_t y, int) {
+        unsigned char* row = target.rows.row(int(y), height);
+        for (int x = 0; x < width; ++x) std::swap(row[4 * x], row[4 * x + 2]);
+    });
     return Status::ok();
+}
+
+bool is_8bit(PixelFormat format) {
+    return format == PixelFormat::kRgba8Srgb || format == PixelFormat::kBgra8Srgb;
 }
 
 }  // namespace
 
 std::size_t pixel_bytes(PixelFormat format) {
-    return format == PixelFormat::kRgba8Srgb ? 4 : format == PixelFormat::kRgba16F ? 8 : 16;
+    return format == PixelFormat::kRgba16F ? 8 : format == PixelFormat::kRgba32F ? 16 : 4;
 }
 
 std::uint16_t half_of(float value) {
@@ -168,12 +222,14 @@ float float_of_half(std::uint16_t half) {
 Status write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
                     const KernelTable* kernels, int threads, std::uint64_t& broken) {
     broken = 0;
-    const bool decodes =
-        target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kOver;
+    const bool codes_8bit = is_8bit(target.format);
     SrgbTable table{};
-    if (decodes) fill(table);
-    if (target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kReplace &&
-        kernels != nullptr && kernels->pixel_rows != nullptr)
+    if (codes_8bit && target.blend == PixelBlend::kOver) fill(table);
+    DeepCodes deep;
+    if (target.format == PixelFormat::kRgb10A2Srgb) PILEUS_TRY(deep.make());
+    const std::size_t red = target.format == PixelFormat::kBgra8Srgb ? 2 : 0;
+    if (codes_8bit && target.blend == PixelBlend::kReplace && kernels != nullptr &&
+        kernels->pixel_rows != nullptr)
         return replace_8bit(planes, width, height, target, table, *kernels, threads, broken);
     const float gain = exposure_gain(target.stops);
     const std::size_t columns = std::size_t(width);
@@ -182,10 +238,15 @@ Status write_pixels(const Planes& planes, int width, int height, const PixelTarg
         unsigned char* row = target.rows.row(int(y), height);
         const std::size_t first = std::size_t(y) * columns;
         std::uint64_t own = 0;
-        if (target.format == PixelFormat::kRgba8Srgb)
+        const bool whole = target.blend == PixelBlend::kReplace;
+        if (codes_8bit)
             for (std::size_t x = 0; x < columns; ++x)
-                store_8bit(pixel_of(planes, first + x, target.blend == PixelBlend::kReplace, own),
-                           target.blend, gain, &table, row + 4 * x);
+                store_8bit(pixel_of(planes, first + x, whole, own), target.blend, gain, &table, red,
+                           row + 4 * x);
+        else if (target.format == PixelFormat::kRgb10A2Srgb)
+            for (std::size_t x = 0; x < columns; ++x)
+                store_10bit(pixel_of(planes, first + x, whole, own), target.blend, gain, deep,
+                            row + 4 * x);
         else if (target.format == PixelFormat::kRgba16F)
             store_row<std::uint16_t>(planes, first, columns, target.blend, row, own, float_of_half,
                                      half_of);
@@ -237,7 +298,7 @@ Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
     return Status::ok();
 }
 
-void write_depths(const Planes& planes, const CameraParams& camera, DepthKind kind,
+void write_depths(const Planes& planes, const CameraParams& camera, DepthKind kind, bool halves,
                   const DepthScale& scale, const Rows& rows) {
     const std::size_t width = std::size_t(camera.width);
     for (int y = 0; y < camera.height; ++y) {
@@ -251,7 +312,12 @@ void write_depths(const Planes& planes, const CameraParams& camera, DepthKind ki
                 const double z = double(metres) / ray_slant(camera, double(x), double(y));
                 metres = float(kind == DepthKind::kBuffer ? scale.value(z) : z);
             }
-            std::memcpy(row + x * sizeof metres, &metres, sizeof metres);
+            if (halves) {
+                const std::uint16_t half = half_of(metres);
+                std::memcpy(row + x * sizeof half, &half, sizeof half);
+            } else {
+                std::memcpy(row + x * sizeof metres, &metres, sizeof metres);
+            }
         }
     }
 }

@@ -11,7 +11,7 @@
 
 namespace pileus {
 
-enum class PixelFormat { kRgba8Srgb, kRgba16F, kRgba32F };
+enum class PixelFormat { kRgba8Srgb, kRgba16F, kRgba32F, kBgra8Srgb, kRgb10A2Srgb };
 enum class PixelBlend { kReplace, kOver, kMedia };
 enum class DepthKind { kDistance, kViewZ, kBuffer };
 
@@ -30,7 +30,7 @@ struct PixelTarget {
     Rows rows;
     PixelFormat format = PixelFormat::kRgba8Srgb;
     PixelBlend blend = PixelBlend::kReplace;
-    float stops = 0;  ///< of 8-bit pixels
+    float stops = 0;  ///< of 8-bit and 10-bit pixels
 };
 
 /// Bytes of a pixel.
@@ -49,8 +49,9 @@ std::uint64_t hash_planes(const Planes& planes);
 Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
                    const CameraParams& camera, CameraDepth& depth);
 
-/// Metres to half of the light, or to something opaque before it, in the caller's kind.
-void write_depths(const Planes& planes, const CameraParams& camera, DepthKind kind,
+/// Metres to half of the light, or to something opaque before it, in the caller's kind; as halves
+/// or floats.
+void write_depths(const Planes& planes, const CameraParams& camera, DepthKind kind, bool halves,
                   const DepthScale& scale, const Rows& rows);
 
 /// Nearest half of a float, ties to even.

@@ -259,7 +259,7 @@ Status Session::render(const FrameTarget& target) {
     if (target.has_depth) {
         const StageClock clock(context_, "depths");
         write_depths(*fresh, make_camera(scene_.camera, 0, world().medium.low_m), target.depth_kind,
-                     depth_scale_, target.depth);
+                     target.depth_halves, depth_scale_, target.depth);
     }
     last_.has_hash = target.hash != nullptr;
     if (last_.has_hash) {

@@ -26,6 +26,7 @@ struct FrameTarget {
     bool has_depth = false;
     Rows depth;
     DepthKind depth_kind = DepthKind::kDistance;
+    bool depth_halves = false;
     std::uint64_t* hash = nullptr;
 };
 

@@ -267,9 +267,9 @@ TEST_CASE("misuse: rows of pictures and depths, and what is drawn into them") {
         r.refused(pileus_session_render(r.s, &frame, r.e), "frame.exposure_stops: ");
     }
     frame.exposure_stops = 0;
-    for (const auto wrong :
-         {&pileus_frame::format, &pileus_frame::blend, &pileus_frame::depth_kind})
-        for (const std::uint32_t value : {3u, kHuge, kMax}) {
+    for (const auto wrong : {&pileus_frame::format, &pileus_frame::blend, &pileus_frame::depth_kind,
+                             &pileus_frame::depth_format})
+        for (const std::uint32_t value : {5u, kHuge, kMax}) {
             pileus_frame given = frame;
             given.*wrong = value;
             r.refused(pileus_session_render(r.s, &given, r.e), "frame.");

@@ -109,6 +109,62 @@ TEST_CASE("targets: 8-bit media over black and over a picture") {
     }
 }
 
+TEST_CASE("targets: blue first, and ten bits, are the same colours") {
+    Hosted host = small();
+    for (const std::uint32_t blend :
+         {PILEUS_BLEND_REPLACE, PILEUS_BLEND_MEDIA, PILEUS_BLEND_OVER}) {
+        CAPTURE(blend);
+        std::vector<unsigned char> rgba(4 * kPixels), bgra(4 * kPixels);
+        std::vector<std::uint32_t> words(kPixels);
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            // The same colour in each: codes of 8 bits that are codes of 10, too (3 of 255,
+            // 1023/85).
+            const std::uint32_t r = 3 * (i % 86), g = 255 - r, b = 51, a = 85 * (i % 4);
+            rgba[4 * i] = (unsigned char)(r), rgba[4 * i + 1] = (unsigned char)(g);
+            rgba[4 * i + 2] = (unsigned char)(b), rgba[4 * i + 3] = (unsigned char)(a);
+            bgra[4 * i] = (unsigned char)(b), bgra[4 * i + 1] = (unsigned char)(g);
+            bgra[4 * i + 2] = (unsigned char)(r), bgra[4 * i + 3] = (unsigned char)(a);
+            words[i] = (r * 1023 + 127) / 255 | (g * 1023 + 127) / 255 << 10 |
+                       (b * 1023 + 127) / 255 << 20 | a / 85 << 30;
+        }
+        draw(host, PILEUS_FORMAT_RGBA8_SRGB, blend, false, rgba);
+        draw(host, PILEUS_FORMAT_BGRA8_SRGB, blend, false, bgra);
+        draw(host, PILEUS_FORMAT_RGB10A2_SRGB, blend, false, words);
+        int finer = 0;
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                CHECK(bgra[4 * i + c] == rgba[4 * i + 2 - c]);
+                const double deep = double(words[i] >> (10 * c) & 1023u) * 255 / 1023;
+                // Half a code of 8 bits, half a code of 10, and half of one that was read.
+                CHECK(std::fabs(deep - double(rgba[4 * i + c])) < 0.5 + 2 * 0.125 + 1e-6);
+                finer += std::fabs(deep - double(rgba[4 * i + c])) > 0.125;
+            }
+            CHECK(bgra[4 * i + 3] == rgba[4 * i + 3]);
+            CHECK(std::fabs(double(words[i] >> 30) / 3 - double(rgba[4 * i + 3]) / 255) < 0.17);
+        }
+        CHECK(finer > 20);
+    }
+}
+
+TEST_CASE("targets: depths as halves are those of the floats") {
+    Hosted host = small();
+    for (const std::uint32_t kind : {PILEUS_DEPTH_DISTANCE, PILEUS_DEPTH_VIEW_Z}) {
+        const std::vector<float> metres = depths(host, kind);
+        std::vector<std::uint16_t> halves(kPixels + 1, 0x1234);
+        auto frame = cleared<pileus_frame>();
+        frame.depth = reinterpret_cast<float*>(halves.data());
+        frame.depth_format = PILEUS_DEPTH_R16F;
+        frame.depth_kind = kind;
+        host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
+        for (std::size_t i = 0; i < kPixels; ++i) CHECK(halves[i] == pileus::half_of(metres[i]));
+        CHECK(halves[kPixels] == 0x1234);
+        frame.depth_format = 2;
+        CHECK(pileus_session_render(host.session.get(), &frame, &host.out.error) ==
+              PILEUS_ERROR_INPUT);
+        CHECK(host.out.line().find("frame.depth_format: 2, allowed: ") == 0);
+    }
+}
+
 TEST_CASE("targets: halves go there and back, the largest and the smallest too") {
     // Every half but what is no number is itself again.
     for (std::uint32_t bits = 0; bits < 65536; ++bits) {

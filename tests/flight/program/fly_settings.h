@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { kFlownWorks = 32, kFlownFormats = 3, kFlownBlends = 3, kFlownTargets = 36 };
+enum { kFlownWorks = 32, kFlownFormats = 5, kFlownBlends = 3, kFlownTargets = 60 };
 
 /* Of the same picture twice: a flight's, and that of the session it is compared with. */
 typedef struct flown_memory {
@@ -91,8 +91,11 @@ static void flown_frame(int target, int which, const flown_memory* memory, uint6
     frame->format = (uint32_t)(target % kFlownFormats);
     frame->blend = (uint32_t)(target / kFlownFormats % kFlownBlends);
     frame->colour = memory->pixels[which];
-    if (target / 9 % 2 == 1) frame->hash = hash;
-    if (target / 18 % 2 == 1) frame->depth = memory->depths[which];
+    if (target / (kFlownFormats * kFlownBlends) % 2 == 1) frame->hash = hash;
+    if (target / (2 * kFlownFormats * kFlownBlends) % 2 == 1) {
+        frame->depth = memory->depths[which];
+        frame->depth_format = (uint32_t)(target % 2);
+    }
 }
 
 /* Of all works, targets and, with `solid`, depth images or none, every `stride`th from `first` on.
