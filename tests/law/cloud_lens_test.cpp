@@ -96,7 +96,7 @@ TEST_CASE("lenses: a box sets the size, and what does not fit is refused") {
     const std::string box = "bounds_m = [[0, 0, 4000], [9000, 9000, 5000]]\n";
     REQUIRE(read("", box, medium) == "");
     CloudHeap heap;
-    CloudPlace place;
+    CloudInGrid place;
     REQUIRE(place_cloud(medium, heap, place));
     CHECK(place.cloud.height_m > 500);
     CHECK(place.cloud.height_m < 1000);

@@ -127,7 +127,7 @@ TEST_CASE("clouds: a box of its own sets the size, unless the scene asks for one
     const std::string box = "bounds_m = [[0, 0, 0], [3000, 3000, 1000]]\n";
     const MediumSettings filled = medium_of("seed = 3", box);
     CloudHeap heap;
-    CloudPlace place;
+    CloudInGrid place;
     REQUIRE(place_cloud(filled, heap, place));
     CHECK(place.cloud.height_m == doctest::Approx(place.allowed_m));
     CHECK(place.cloud.height_m > 500);
@@ -205,7 +205,7 @@ TEST_CASE("clouds: the wind's direction is where tops drift") {
     const auto middle = [](const char* cloud) {
         const MediumSettings medium = medium_of(cloud);
         CloudHeap heap;
-        CloudPlace place;
+        CloudInGrid place;
         REQUIRE(place_cloud(medium, heap, place));
         double x = 0, y = 0, n = 0;
         for (std::size_t i = 0; i < heap.count; ++i)

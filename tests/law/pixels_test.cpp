@@ -308,7 +308,7 @@ TEST_CASE("pixels: depths of every kind are metres along the rays, and back") {
         for (std::size_t i = 0; i < 12; ++i) planes.half_depth[i] = depth.metres[i];
         std::vector<float> back(12);
         rows.first = reinterpret_cast<unsigned char*>(back.data());
-        write_depths(planes, params, kind, scale, rows);
+        write_depths(planes, params, kind, false, scale, rows);
         CHECK(double(back[4]) == doctest::Approx(double(held[4])).epsilon(1e-5));
         CHECK(back[3] == (kind == DepthKind::kBuffer ? 1 : kInf));
     }

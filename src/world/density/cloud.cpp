@@ -73,7 +73,7 @@ constexpr DensityRow cloud_row() {
 
 Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume& volume) {
     CloudHeap heap;
-    CloudPlace place;
+    CloudInGrid place;
     PILEUS_TRY(place_cloud(medium, heap, place));
     if (!fits(place))
         return Status::bad_input("cloud.height_m: " + number_text(place.cloud.height_m, 6) +

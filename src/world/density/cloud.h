@@ -70,7 +70,7 @@ WindWay wind_at(const CloudSettings& settings, double height);
 std::array<Double3, 2> lens_extent(const CloudSettings& settings);
 
 /// Where a cloud stands.
-struct CloudPlace {
+struct CloudInGrid {
     CloudSettings cloud;  ///< resolved; its height as the box allows it
     Double3 foot_m{};     ///< world place of the foot's middle on the condensation level
     std::array<Double3, 2> bounds_m{};
@@ -80,11 +80,11 @@ struct CloudPlace {
 };
 
 /// Whether the height that was asked for is allowed.
-bool fits(const CloudPlace& place);
+bool fits(const CloudInGrid& place);
 
 /// Places a medium's cloud in the medium's box, or a box around it; of one heap grows its balls.
 /// kLimit: out of memory.
-Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& place);
+Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudInGrid& place);
 
 /// Laws between the keys of a cloud; fills in what its type brings.
 void check_cloud(SceneCheck& check, std::size_t medium);
@@ -103,13 +103,13 @@ struct CloudMaking {
 Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume& volume);
 
 /// The same of one kind, into `volume`, which has its cells. Heaps lie upon one another.
-Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+Status make_heap(const CloudInGrid& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume);
-Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volume);
-Status make_lens(const CloudPlace& place, const CloudMaking& with, Volume& volume);
-Status make_layer(const CloudPlace& place, const CloudMaking& with, Volume& volume);
+Status make_field(const CloudInGrid& place, const CloudMaking& with, Volume& volume);
+Status make_lens(const CloudInGrid& place, const CloudMaking& with, Volume& volume);
+Status make_layer(const CloudInGrid& place, const CloudMaking& with, Volume& volume);
 /// Adds the rain below a heap or a layer.
-Status make_rain(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+Status make_rain(const CloudInGrid& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume);
 
 /// Cells where the scene leaves them out: cubes, so many along the longest edge of the box, and 24

@@ -19,7 +19,7 @@ constexpr std::size_t kMaxFieldClouds = 4000;
 constexpr int kFieldTries = 40;
 constexpr double kMammaDepth = 0.06, kShelfDepth = 0.04;  // over the height
 
-CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
+CloudParams params_of(const CloudInGrid& place, const CloudHeap& heap,
                       const std::array<int, 3>& size, Buffer<CloudBall>& balls) {
     const CloudSettings cloud = cloud_at_age(place.cloud);
     const float h = float(cloud.height_m);
@@ -106,7 +106,7 @@ struct FieldCloud {
 };
 
 /// Places of clouds, the largest first, gathered by slow noise, none within another.
-std::vector<FieldCloud> strew(const CloudPlace& place, Draws& draws, std::uint32_t seed) {
+std::vector<FieldCloud> strew(const CloudInGrid& place, Draws& draws, std::uint32_t seed) {
     const auto& box = place.bounds_m;
     const double width = box[1].x - box[0].x, depth = box[1].y - box[0].y;
     const double largest = place.cloud.radius_m, smallest = std::min(60.0, 0.25 * largest);
@@ -144,7 +144,7 @@ std::vector<FieldCloud> strew(const CloudPlace& place, Draws& draws, std::uint32
 
 }  // namespace
 
-Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+Status make_heap(const CloudInGrid& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume) {
     if (heap.count == 0) return Status::ok();  // not yet there, or gone
     Buffer<CloudBall> balls;
@@ -163,12 +163,12 @@ Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaki
     return Status::ok();
 }
 
-Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volume) {
+Status make_field(const CloudInGrid& place, const CloudMaking& with, Volume& volume) {
     Draws draws(std::uint64_t(place.cloud.seed), kCloudFieldStream);
     const std::uint32_t seed = make_key(std::uint64_t(place.cloud.seed), kCloudFieldStream, 1).k0;
     const std::vector<FieldCloud> clouds = strew(place, draws, seed);
     for (std::size_t i = 0; i < clouds.size(); ++i) {
-        CloudPlace one = place;
+        CloudInGrid one = place;
         CloudSettings& c = one.cloud;
         const auto between = [&](double low, double high) {
             return low + (high - low) * double(draws.between(0.0f, 1.0f));

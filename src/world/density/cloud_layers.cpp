@@ -20,7 +20,7 @@ CloudLayerForm layer_form(CloudForm form) {
                                          : kLayerSheet;
 }
 
-CloudLayerParams layer_params(const CloudPlace& place, const std::array<int, 3>& size) {
+CloudLayerParams layer_params(const CloudInGrid& place, const std::array<int, 3>& size) {
     const CloudSettings& cloud = place.cloud;
     const CloudForm form = cloud_type(cloud.type).form;
     CloudLayerParams k{};
@@ -50,7 +50,7 @@ CloudLayerParams layer_params(const CloudPlace& place, const std::array<int, 3>&
 
 }  // namespace
 
-Status make_layer(const CloudPlace& place, const CloudMaking& with, Volume& volume) {
+Status make_layer(const CloudInGrid& place, const CloudMaking& with, Volume& volume) {
     // No cover is no cloud at all, whatever the noise.
     if (!(place.cloud.cover > 0)) return Status::ok();
     CloudLayerParams k = layer_params(place, with.size);

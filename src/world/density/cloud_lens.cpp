@@ -57,7 +57,7 @@ std::array<Double3, 2> lens_extent(const CloudSettings& s) {
         Double3{std::max(down * x, -up * x) + side_x, std::max(down * y, -up * y) + side_y, 1.1}};
 }
 
-Status make_lens(const CloudPlace& place, const CloudMaking& with, Volume& volume) {
+Status make_lens(const CloudInGrid& place, const CloudMaking& with, Volume& volume) {
     const CloudSettings& cloud = place.cloud;
     CloudLensParams k{};
     stack_plates(cloud, k);

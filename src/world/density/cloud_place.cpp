@@ -35,7 +35,7 @@ double fitting(double low, double high, double from, double to, double at) {
 }
 
 /// The foot and the largest height within a box; what the scene leaves out is in the middle.
-void fit_heap(const MediumSettings& medium, const CloudHeap& heap, CloudPlace& place) {
+void fit_heap(const MediumSettings& medium, const CloudHeap& heap, CloudInGrid& place) {
     const auto& box = place.bounds_m;
     const Double3 &low = heap.extent[0], &high = heap.extent[1];
     // Over its rain it stands on its level, where the box holds that.
@@ -64,7 +64,7 @@ void fit_heap(const MediumSettings& medium, const CloudHeap& heap, CloudPlace& p
 }
 
 /// A layer or a field fills its box; what the scene leaves out is the type's where that fits.
-void fit_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) {
+void fit_layer(const MediumSettings& medium, CloudForm form, CloudInGrid& place) {
     CloudSettings& cloud = place.cloud;
     const auto& box = place.bounds_m;
     const double room = (box[1].z - box[0].z) / (kLayerOver + kLayerUnder);
@@ -85,7 +85,7 @@ double floor_of(const CloudSettings& cloud, double lowest) {
 }
 
 /// The box of a layer or a field that the scene gives none.
-void box_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) {
+void box_layer(const MediumSettings& medium, CloudForm form, CloudInGrid& place) {
     const CloudSettings& cloud = place.cloud;
     const bool placed = medium.cloud.has_place();
     const double x = placed ? medium.cloud.position_m[0] : 0.0;
@@ -100,7 +100,7 @@ void box_layer(const MediumSettings& medium, CloudForm form, CloudPlace& place) 
 
 }  // namespace
 
-bool fits(const CloudPlace& place) {
+bool fits(const CloudInGrid& place) {
     // What sums of doubles round is no fault.
     return place.cloud.height_m <= place.allowed_m * (1 + 1e-9) && place.cloud.height_m > 0;
 }
@@ -124,7 +124,7 @@ void check_cloud(SceneCheck& check, std::size_t index) {
         return;
     }
     CloudHeap heap;
-    CloudPlace place;
+    CloudInGrid place;
     const Status placed = place_cloud(medium, heap, place);
     if (!placed) {
         fault("type", placed.message);
@@ -204,7 +204,7 @@ void check_cloud(SceneCheck& check, std::size_t index) {
     }
 }
 
-Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& place) {
+Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudInGrid& place) {
     place.cloud = resolved_cloud(medium.cloud);
     const CloudForm form = cloud_type(medium.cloud.type).form;
     if (medium.box.has_bounds) place.bounds_m = medium.box.bounds_m;

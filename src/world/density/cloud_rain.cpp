@@ -26,7 +26,7 @@ constexpr double kMaxLean = 0.5;    // of streaks, over the height fallen
 constexpr double kMinDepth = 0.02;  // of a shaft, over the cloud's height
 
 /// Share of a lean that keeps shafts within the box.
-double lean_that_fits(const CloudPlace& place, const CloudRainParams& k) {
+double lean_that_fits(const CloudInGrid& place, const CloudRainParams& k) {
     double share = 1;
     for (std::int32_t i = 0; i < k.count; ++i)
         for (int a = 0; a < 2; ++a) {
@@ -41,7 +41,7 @@ double lean_that_fits(const CloudPlace& place, const CloudRainParams& k) {
     return std::max(share, 0.0);
 }
 
-CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
+CloudRainParams rain_params(const CloudInGrid& place, const CloudHeap& heap,
                             const std::array<int, 3>& size) {
     const CloudSettings& cloud = place.cloud;
     const CloudType& type = cloud_type(cloud.type);
@@ -103,7 +103,7 @@ CloudRainParams rain_params(const CloudPlace& place, const CloudHeap& heap,
 
 }  // namespace
 
-Status make_rain(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+Status make_rain(const CloudInGrid& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume) {
     const CloudRainParams k = rain_params(place, heap, with.size);
     if (!(k.strength > 0) || k.layers == 0) return Status::ok();

@@ -51,7 +51,7 @@ Status FieldBlock::fault(Role role, std::size_t column, const std::string& line)
                              printable_line(line));
 }
 
-AirColumn::AirColumn(const FieldBlock& block, WeatherCounts& counts)
+WeatherAirColumn::WeatherAirColumn(const FieldBlock& block, WeatherCounts& counts)
     : density(block.source->levels(), 0.0),
       humidity(density),
       block_(block),
@@ -65,11 +65,11 @@ AirColumn::AirColumn(const FieldBlock& block, WeatherCounts& counts)
       faces_pa_(n_ + 1, 0.0),
       logarithms_(n_, 0.0) {}
 
-bool AirColumn::by_pressure() const {
+bool WeatherAirColumn::by_pressure() const {
     return s_.vertical == Vertical::kPressureFaces || s_.vertical == Vertical::kPressureLevels;
 }
 
-Status AirColumn::check() const {
+Status WeatherAirColumn::check() const {
     if (!needs_air_) return Status::ok();
     const char* lacks = !s_.has(Role::kTemperature) ? "temperature" : nullptr;
     const bool hybrid = !s_.hybrid_b.empty() && !s_.hybrid_heights;
@@ -83,7 +83,7 @@ Status AirColumn::check() const {
 
 /// Mean of two faces where a field stands on faces; missing ones from the nearest level above,
 /// then below.
-Status AirColumn::on_levels(Role role, std::size_t c, std::vector<double>& to) {
+Status WeatherAirColumn::on_levels(Role role, std::size_t c, std::vector<double>& to) {
     const Buffer<double>& from = of(role);
     const bool faces = s_.fields[role].on_faces;
     std::size_t known = n_;
@@ -105,8 +105,8 @@ Status AirColumn::on_levels(Role role, std::size_t c, std::vector<double>& to) {
     return Status::ok();
 }
 
-Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
-                            bool ascends) const {
+Status WeatherAirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
+                                   bool ascends) const {
     const std::size_t n = values.size;
     for (std::size_t k = 0; k < n; ++k) {
         if (missing(values[k])) return fault(role, c, "missing value on a level");
@@ -123,7 +123,7 @@ Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
 }
 
 /// Pressures of faces, from below.
-Status AirColumn::pressure_faces(std::size_t c) {
+Status WeatherAirColumn::pressure_faces(std::size_t c) {
     const Span<double> faces{faces_pa_.data(), faces_pa_.size()};
     const double ground = s_.has(Role::kSurfacePressure) ? of(Role::kSurfacePressure).at(c) : -1;
     if (missing(ground)) return fault(Role::kSurfacePressure, c, "missing value");
@@ -165,7 +165,7 @@ Status AirColumn::pressure_faces(std::size_t c) {
     return Status::ok();
 }
 
-Status AirColumn::air_column(std::size_t c) {
+Status WeatherAirColumn::air_column(std::size_t c) {
     PILEUS_TRY(on_levels(Role::kTemperature, c, kelvin_));
     if (s_.has(Role::kHumidity)) PILEUS_TRY(on_levels(Role::kHumidity, c, humidity));
     if (by_pressure()) {
@@ -202,7 +202,7 @@ Status AirColumn::air_column(std::size_t c) {
 }
 
 /// Heights of levels or faces over the file's datum, from below.
-Status AirColumn::heights(std::size_t c, std::vector<double>& to) const {
+Status WeatherAirColumn::heights(std::size_t c, std::vector<double>& to) const {
     const std::size_t m = to.size();
     const bool above = s_.hybrid_heights || s_.fields[Role::kHeight].above_ground;
     double ground = 0;
@@ -216,7 +216,7 @@ Status AirColumn::heights(std::size_t c, std::vector<double>& to) const {
     return Status::ok();
 }
 
-bool AirColumn::lacks_values(std::size_t c) const {
+bool WeatherAirColumn::lacks_values(std::size_t c) const {
     for (const Role role : {Role::kTemperature, Role::kPressure, Role::kHeight, Role::kHumidity,
                             Role::kSurfacePressure, Role::kSurfaceHeight}) {
         if (!s_.has(role)) continue;
@@ -230,7 +230,7 @@ bool AirColumn::lacks_values(std::size_t c) const {
 }
 
 /// Density of air and heights of faces.
-Status AirColumn::place_column(std::size_t c, const Span<double>& faces) {
+Status WeatherAirColumn::place_column(std::size_t c, const Span<double>& faces) {
     if (needs_air_) PILEUS_TRY(air_column(c));
     if (by_pressure()) {
         double lowest = 0;

@@ -22,9 +22,9 @@ struct FieldBlock {
 
 /// The air of one column after the other. `density` and `humidity` (kg per kg of moist air) are set
 /// only where water is a ratio or pressures tell the heights.
-class AirColumn {
+class WeatherAirColumn {
 public:
-    AirColumn(const FieldBlock& block, WeatherCounts& counts);
+    WeatherAirColumn(const FieldBlock& block, WeatherCounts& counts);
 
     /// Whether the file has what is needed.
     Status check() const;

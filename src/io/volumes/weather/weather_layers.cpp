@@ -209,7 +209,7 @@ private:
     const FieldBlock& fields_;
     const WeatherSource& s_;
     std::size_t n_;
-    AirColumn air_;
+    WeatherAirColumn air_;
     CloudLayers& layers_;
     WeatherCounts& counts_;
 };
