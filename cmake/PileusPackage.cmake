@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages and a tar that may lie anywhere, by cpack: the program, the shared library, what programs are built with.
+# Debian packages by cpack: the program, the shared library, what programs are built with.
 # in: components program, library, dev -> out: pileus_*.deb, libpileus0.20_*.deb (by the soname), libpileus-dev_*.deb
 # docs/packages.md; tools/release builds and tries them. Libraries lie where Debian has them with -DCMAKE_INSTALL_PREFIX=/usr.
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/pileus" RENAME copyright COMPONENT program)
-if(PILEUS_HAS_SHARED)
-    install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libpileus${PILEUS_SOVERSION}"
-        RENAME copyright COMPONENT library)
+set(package_program pileus)
+set(package_library libpileus${PILEUS_SOVERSION})
+set(package_dev libpileus-dev)
+set(CPACK_COMPONENTS_ALL program library dev)
+if(NOT PILEUS_HAS_SHARED)
+    list(REMOVE_ITEM CPACK_COMPONENTS_ALL library)
 endif()
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libpileus-dev" RENAME copyright COMPONENT dev)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+    install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package_${component}}"
+        RENAME copyright COMPONENT ${component})
+    string(TOUPPER ${component} upper)
+    set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package_${component}})
+endforeach()
 
 set(CPACK_PACKAGE_NAME pileus)
 set(CPACK_PACKAGE_VENDOR pileus)
@@ -17,22 +24,15 @@ set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGE_FILE_NAME "pileus-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL program library dev)
-if(NOT PILEUS_HAS_SHARED)
-    list(REMOVE_ITEM CPACK_COMPONENTS_ALL library)
-endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pileus)
 # Loaded when a scene asks for them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libnetcdf19, libeccodes0, libassimp5, libtiff6, libsdl2-2.0-0, libegl1")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libpileus${PILEUS_SOVERSION})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libnetcdf19, libeccodes0, libassimp5, libtiff6, libegl1")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
-set(CPACK_DEBIAN_DEV_PACKAGE_NAME libpileus-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 # What pileus.pc names for programs that take the static library, pkg-config wants for all.
@@ -45,13 +45,10 @@ foreach(row "OPENEXR libopenexr-dev" "PNG libpng-dev" "ZLIB zlib1g-dev" "BLOSC l
     endif()
 endforeach()
 if(PILEUS_HAS_SHARED)
-    list(PREPEND dev_needs "libpileus${PILEUS_SOVERSION} (= ${PROJECT_VERSION})")
+    list(PREPEND dev_needs "${package_library} (= ${PROJECT_VERSION})")
 endif()
 list(JOIN dev_needs ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
-foreach(name "PROGRAM pictures of clouds: the program" "LIBRARY pictures of clouds: the shared library"
-        "DEV pictures of clouds: headers and libraries to build with")
-    string(REGEX MATCH "^[A-Z]+" component "${name}")
-    string(REGEX REPLACE "^[A-Z]+ " "" text "${name}")
-    set(CPACK_COMPONENT_${component}_DESCRIPTION "${text}")
-endforeach()
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "pictures of clouds: the program")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "pictures of clouds: the shared library")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "pictures of clouds: headers and libraries to build with")
 include(CPack)

@@ -326,7 +326,7 @@ typedef struct pileus_depth_image {
     uint32_t struct_size;
     uint32_t kind;       /**< a pileus_depth */
     const float* values; /**< as many as the camera has pixels; null: nothing solid */
-    int64_t stride;      /**< bytes from row to row; 0: rows lie close */
+    int64_t stride;      /**< bytes from row to row; 0: tightly packed */
     int32_t bottom_up;   /**< not 0: the first row in memory is the picture's lowest */
 } pileus_depth_image;
 
@@ -390,13 +390,13 @@ typedef enum pileus_blend {
 typedef struct pileus_frame {
     uint32_t struct_size;
     void* colour;          /**< first byte of the first row in memory; may be null */
-    int64_t colour_stride; /**< bytes from row to row; 0: rows lie close */
+    int64_t colour_stride; /**< bytes from row to row; 0: tightly packed */
     uint32_t format;       /**< a pileus_format */
     uint32_t blend;        /**< a pileus_blend */
     int32_t bottom_up; /**< not 0: the first row in memory is the picture's lowest; both buffers */
     float exposure_stops;  /**< 8 and 10 bits: doubles or halves the light; -100 to 100 */
     float* depth;          /**< where half of the light is gone, or the opaque thing; null: none */
-    int64_t depth_stride;  /**< bytes; 0: rows lie close */
+    int64_t depth_stride;  /**< bytes; 0: tightly packed */
     uint32_t depth_kind;   /**< a pileus_depth */
     uint64_t* hash;        /**< null: none is made; else of the whole picture, as the program's */
     uint32_t depth_format; /**< a pileus_depth_format: what lies at `depth` */
@@ -678,7 +678,7 @@ typedef struct pileus_picture {
     uint32_t width, height;
     uint32_t channels;   /**< 3: R G B; 4: and alpha */
     const float* values; /**< [row][column][channels] */
-    int64_t stride;      /**< bytes from row to row; 0: rows lie close */
+    int64_t stride;      /**< bytes from row to row; 0: tightly packed */
 } pileus_picture;
 
 /** As `pileus compare` prints them: docs/compare.md, "Figures". */
@@ -722,7 +722,7 @@ PILEUS_API pileus_code pileus_compare(const pileus_picture* a, const pileus_pict
 PILEUS_STRUCT(0, error)
 PILEUS_STRUCT(0, host) /* all threads, the C runtime's memory */
 PILEUS_STRUCT(0, plan)
-PILEUS_STRUCT(1, particles) /* strides of values that lie close */
+PILEUS_STRUCT(1, particles) /* strides of tightly packed values */
 PILEUS_STRUCT(0, density)
 PILEUS_STRUCT(2, camera)      /* up z, fov_deg 40; its place and target are yours */
 PILEUS_STRUCT(3, sun)         /* present, elevation_deg 45, irradiance 1 */

@@ -371,7 +371,7 @@ enum class Depth : std::uint32_t {
 struct DepthImage {
     const float* values = nullptr;  ///< as many as the camera has pixels; null: nothing solid
     Depth kind = Depth::kDistance;
-    std::int64_t stride = 0;  ///< bytes from row to row; 0: rows lie close
+    std::int64_t stride = 0;  ///< bytes from row to row; 0: tightly packed
     bool bottom_up = false;   ///< the first row in memory is the picture's lowest, as in OpenGL
 };
 
@@ -395,7 +395,7 @@ struct Frame {
     void* colour = nullptr;  ///< first byte of the first row in memory; null: none
     Format format = Format::kRgba8Srgb;
     Blend blend = Blend::kReplace;
-    std::int64_t colour_stride = 0;  ///< bytes from row to row; 0: rows lie close
+    std::int64_t colour_stride = 0;  ///< bytes from row to row; 0: tightly packed
     bool bottom_up = false;    ///< the first row in memory is the picture's lowest; both buffers
     float exposure_stops = 0;  ///< 8 bit only: doubles or halves the light
     float* depth = nullptr;    ///< where half of the light is gone, or the opaque thing; null: none

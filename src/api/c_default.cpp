@@ -6,13 +6,12 @@
 
 namespace {
 
-/// Fills as much of a struct as the caller knows.
+/// Fills as much of a marked struct as the caller knows.
 template <class T, class Fill>
 void fill(void* given, std::uint32_t size, Fill set) {
     T own{};
-    pileus_init(&own, sizeof own);
-    set(own);
     std::memcpy(&own, given, sizeof own.struct_size);
+    set(own);
     std::memcpy(given, static_cast<const void*>(&own), size < sizeof own ? size : sizeof own);
 }
 
@@ -38,7 +37,7 @@ void fill_detail(pileus_cloud_detail& d) {
 
 extern "C" void pileus_default(uint32_t kind, void* pileus_struct, uint32_t size) {
     pileus_init(pileus_struct, size);
-    if (pileus_struct == nullptr || size < sizeof size || size > 0xffffu) return;
+    if (!pileus::api::is_room(pileus_struct, size)) return;
     switch (kind) {
         case 1:
             return fill<pileus_particles>(pileus_struct, size, fill_particles);

@@ -35,11 +35,15 @@ pileus_code finish(Code status, std::string_view text, pileus_error* error) {
     if (given <= head) return code;
     std::size_t room = given - head;
     if (room > sizeof error->message) room = sizeof error->message;
-    const std::size_t size = text.size() < room ? text.size() : room - 1;
-    std::memcpy(error->message, text.data(), size);
-    error->message[size] = 0;
-    if (size < text.size() && size >= 3) std::memcpy(error->message + size - 3, "...", 3);
+    copy_cut(text, error->message, room);
     return code;
+}
+
+void copy_cut(std::string_view text, char* to, std::size_t room) {
+    const std::size_t size = text.size() < room ? text.size() : room - 1;
+    std::memcpy(to, text.data(), size);
+    to[size] = 0;
+    if (size < text.size() && size >= 3) std::memcpy(to + size - 3, "...", 3);
 }
 
 pileus_code settle(const HostParts& host, pileus_code code, pileus_error* error) {
@@ -99,7 +103,7 @@ Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& hos
 extern "C" {
 
 void pileus_init(void* pileus_struct, uint32_t size) {
-    if (pileus_struct == nullptr || size < sizeof size || size > 0xffffu) return;
+    if (!pileus::api::is_room(pileus_struct, size)) return;
     const uint32_t marked = pileus::api::kStructMark | size;
     std::memset(pileus_struct, 0, size);
     std::memcpy(pileus_struct, &marked, sizeof marked);

@@ -8,6 +8,7 @@
 #include "src/base/printable.h"
 #include "src/scene/checks/key_words.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus::api {
 namespace {
@@ -20,17 +21,11 @@ bool overlap(std::string_view a, std::string_view b) {
     return b.substr(0, a.size()) == a && (b.size() == a.size() || b[a.size()] == '.');
 }
 
-std::string_view key_of(std::string_view setting) {
-    const std::string_view key = setting.substr(0, setting.find('='));
-    const std::size_t first = key.find_first_not_of(' '), last = key.find_last_not_of(' ');
-    return first == std::string_view::npos ? key : key.substr(first, last + 1 - first);
-}
-
 /// What sliders have set before: the last setting of a key goes, unless one after it is of a table
 /// around it, or of a key within it.
 void drop_earlier(const std::string& key, std::vector<std::string>& set) {
     for (std::size_t i = set.size(); i > 0; --i) {
-        const std::string_view other = key_of(set[i - 1]);
+        const std::string_view other = override_key(set[i - 1]);
         if (!overlap(key, other)) continue;
         if (other == key) set.erase(set.begin() + std::ptrdiff_t(i) - 1);
         return;
@@ -57,34 +52,6 @@ Status set_key(Scene& scene, const std::string& key, const std::string& value) {
         read_scene_text(text_without_overrides(scene), scene.file, scene.directory, set, next));
     scene = std::move(next);
     return Status::ok();
-}
-
-std::uint32_t numbers_of(KeyKind kind) {
-    switch (kind) {
-        case KeyKind::kInteger:
-        case KeyKind::kNumber:
-            return 1;
-        case KeyKind::kInteger2:
-        case KeyKind::kNumber2:
-            return 2;
-        case KeyKind::kInteger3:
-        case KeyKind::kNumber3:
-        case KeyKind::kColor:
-            return 3;
-        case KeyKind::kInteger4:
-        case KeyKind::kRectangle:
-            return 4;
-        case KeyKind::kBounds:
-            return 6;
-        default:
-            return 0;
-    }
-}
-
-template <std::size_t N>
-void copy_text(const std::string& text, char (&to)[N]) {
-    std::strncpy(to, text.c_str(), N - 1);
-    if (text.size() >= N) std::memcpy(to + N - 4, "...", 3);
 }
 
 }  // namespace
@@ -148,10 +115,10 @@ pileus_code pileus_key_at(uint32_t index, pileus_key* key, pileus_error* error) 
         out.name = row.path;
         out.unit = row.unit;
         out.help = row.help;
-        out.numbers = numbers_of(row.kind());
+        out.numbers = std::uint32_t(numbers_of(row.kind()));
         if (out.numbers > 0) out.low = row.allowed.range.low, out.high = row.allowed.range.high;
-        copy_text(allowed_text(row), out.allowed);
-        if (!row.required()) copy_text(default_text(row), out.value);
+        copy_cut(allowed_text(row), out.allowed, sizeof out.allowed);
+        if (!row.required()) copy_cut(default_text(row), out.value, sizeof out.value);
         return give(out, key, "key");
     });
 }

@@ -48,6 +48,11 @@ inline std::size_t marked_size(std::uint32_t struct_size) {
     return (struct_size & 0xffff0000u) == kStructMark ? struct_size & 0xffffu : 0;
 }
 
+/// Whether there may be a struct of so many bytes at `place`.
+inline bool is_room(const void* place, std::uint32_t size) {
+    return place != nullptr && size >= sizeof size && size <= 0xffffu;
+}
+
 /// The part of a caller's struct that this library knows; the rest stays 0. False: null, or not
 /// marked.
 template <class T>
@@ -89,6 +94,9 @@ Status give(T own, T* to, const char* name) {
     std::memcpy(static_cast<void*>(to), &own, size < sizeof(T) ? size : sizeof(T));
     return Status::ok();
 }
+
+/// Copies a text and its zero into `room` bytes, 1 or more; one that is longer ends in "...".
+void copy_cut(std::string_view text, char* to, std::size_t room);
 
 /// Copies a text and its zero into the caller's memory. `needed`, where not null: bytes of both.
 /// kLimit: too small a size; kBadInput: null with a size.

@@ -23,37 +23,17 @@ const char* const kText =
     "extinction_per_m = 1\nphase = { type = \"henyey-greenstein\", g = 0.5 }\n"
     "[collectors]\n[animation]\nframes = 2\n";
 
-int numbers_of(KeyKind kind) {
-    switch (kind) {
-        case KeyKind::kNumber:
-        case KeyKind::kInteger:
-            return 1;
-        case KeyKind::kNumber2:
-        case KeyKind::kInteger2:
-            return 2;
-        case KeyKind::kNumber3:
-        case KeyKind::kInteger3:
-        case KeyKind::kColor:
-            return 3;
-        case KeyKind::kInteger4:
-            return 4;
-        case KeyKind::kBounds:
-            return 6;
-        default:
-            return 0;
+/// Ones, number `at` replaced by `text`; corners are lists of their own.
+std::string value_with(KeyKind kind, int at, const std::string& text) {
+    const int count = numbers_of(kind);
+    if (count == 1) return text;
+    const bool corners = kind == KeyKind::kBounds || kind == KeyKind::kRectangle;
+    std::string list;
+    for (int i = 0; i < count; ++i) {
+        if (i > 0) list += corners && i == count / 2 ? "],[" : ",";
+        list += i == at ? text : "1";
     }
-}
-
-/// `count` ones, number `at` replaced by `text`.
-std::string value_with(int count, int at, const std::string& text) {
-    const auto number = [&](int i) { return i == at ? text : std::string("1"); };
-    if (count == 1) return number(0);
-    if (count == 6)
-        return "[[" + number(0) + "," + number(1) + "," + number(2) + "],[" + number(3) + "," +
-               number(4) + "," + number(5) + "]]";
-    std::string list = "[";
-    for (int i = 0; i < count; ++i) list += (i > 0 ? "," : "") + number(i);
-    return list + "]";
+    return corners ? "[[" + list + "]]" : "[" + list + "]";
 }
 
 Status read(const std::vector<std::string>& overrides, Scene& scene) {
@@ -72,7 +52,7 @@ TEST_CASE("numbers: NaN, infinities and 1e400 are refused at every key and every
         for (int at = 0; at < count; ++at)
             for (const char* text : {"nan", "-nan", "+nan", "inf", "-inf", "+inf", "1e400"}) {
                 Scene scene;
-                const std::string set = path + "=" + value_with(count, at, text);
+                const std::string set = path + "=" + value_with(row->kind(), at, text);
                 CAPTURE(set);
                 const Status status = read({set}, scene);
                 CHECK(status.code == Code::kBadInput);

@@ -108,7 +108,7 @@ Status decode_image(const PictureFormat& format, const std::string& path, Image&
     return format.decode(path, bytes.span(), image, most_pixels);
 }
 
-Status read_colours(const std::string& path, const Limits& limits, std::uint64_t most_pixels,
+Status read_colours(const std::string& path, const Limits& limits, std::uint64_t max_pixels,
                     Image& image, const Channel* (&rgb)[3]) {
     const PictureFormat* format = picture_format_of(path);
     if (format == nullptr || !is_read(*format))
@@ -117,7 +117,7 @@ Status read_colours(const std::string& path, const Limits& limits, std::uint64_t
     InputFile file;
     PILEUS_TRY(open_file(path, file));
     PILEUS_TRY(check_limit(limits, LimitId::kFile, file.size(), path));
-    PILEUS_TRY(decode_image(*format, path, image, most_pixels));
+    PILEUS_TRY(decode_image(*format, path, image, max_pixels));
     return color_channels(image, rgb);
 }
 

@@ -56,7 +56,7 @@ Status check_image_size(const std::string& where, std::int64_t width, std::int64
 
 /// Reads the colours of a picture of any format that has a reader, within the limit `file`. Faults
 /// of read_image and color_channels.
-Status read_colours(const std::string& path, const Limits& limits, std::uint64_t most_pixels,
+Status read_colours(const std::string& path, const Limits& limits, std::uint64_t max_pixels,
                     Image& image, const Channel* (&rgb)[3]);
 
 // One file per format; each makes or takes the bytes of a whole file.

@@ -32,6 +32,29 @@ enum class KeyKind {
     kLater,        ///< a key of the format that this version cannot use
 };
 
+/// Numbers of a value of that kind; 0: it is no number, or may be something else.
+constexpr int numbers_of(KeyKind kind) {
+    switch (kind) {
+        case KeyKind::kNumber:
+        case KeyKind::kInteger:
+            return 1;
+        case KeyKind::kNumber2:
+        case KeyKind::kInteger2:
+            return 2;
+        case KeyKind::kNumber3:
+        case KeyKind::kInteger3:
+        case KeyKind::kColor:
+            return 3;
+        case KeyKind::kInteger4:
+        case KeyKind::kRectangle:
+            return 4;
+        case KeyKind::kBounds:
+            return 6;
+        default:
+            return 0;
+    }
+}
+
 /// Where values stand: in the scene, or in the element of a list that the path's N counts.
 struct KeyTarget {
     Scene& scene;

@@ -127,8 +127,7 @@ Node* descend(Node& root, const std::vector<std::string>& path, const Place& pla
 void apply(const std::string& text, const Place& place, Node& root, FaultList& faults) {
     const std::size_t equals = text.find('=');
     std::vector<std::string> path;
-    if (equals == std::string::npos ||
-        !split_path(trimmed(std::string_view(text).substr(0, equals)), path)) {
+    if (equals == std::string::npos || !split_path(override_key(text), path)) {
         faults.add(place, "", "not an override, " + quote_text(text) + ", allowed: key.path=value");
         return;
     }
@@ -153,6 +152,10 @@ void apply(const std::string& text, const Place& place, Node& root, FaultList& f
 }
 
 }  // namespace
+
+std::string_view override_key(std::string_view text) {
+    return trimmed(text.substr(0, text.find('=')));
+}
 
 void apply_overrides(const std::vector<std::string>& overrides, Node& root, FaultList& faults) {
     for (std::size_t i = 0; i < overrides.size(); ++i) {

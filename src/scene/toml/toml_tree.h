@@ -66,6 +66,9 @@ bool parse_toml(std::string_view text, Node& root, SyntaxFault& fault);
 /// characters outside ASCII where TOML has none. False and `fault` when found.
 bool is_parsable(std::string_view text, SyntaxFault& fault);
 
+/// The key of an override "key.path=value", without blanks around it; all of a text without '='.
+std::string_view override_key(std::string_view text);
+
 /// Applies `--set key.path=value` options to a scene's tree before it is checked, in order, and
 /// adds what is wrong with them; a later one wins. Tables on the way are made where missing, and so
 /// is the next element of `medium`; any other index must exist.
