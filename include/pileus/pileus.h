@@ -45,9 +45,11 @@ extern "C" {
 #define PILEUS_VERSION_PATCH 0
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
-#define PILEUS_API_VERSION 4
+#define PILEUS_API_VERSION 5
 
 /* ---- Results and structs ----------------------------------------------------------------- */
+
+/* Threads: all at once. Texts that are returned are the library's and stay. */
 
 typedef enum pileus_code {
     PILEUS_OK = 0,
@@ -105,10 +107,15 @@ typedef struct pileus_host {
     void (*progress)(void* user, const char* stage, double share);
     /** Asked now and then; anything but 0 ends a step early. */
     int32_t (*stop)(void* user);
+    /** Not 0: sessions can give what output.layers of their scene names (pileus_frame.layers), and
+     * make it in every picture. */
+    int32_t layers;
 } pileus_host;
 
 /* ---- Scenes ------------------------------------------------------------------------------ */
 
+/* Threads: a scene is read by any number at once, and set or freed by one while no other uses it.
+ * Lifetime: until it is freed; worlds and sessions need it only while they are made. */
 typedef struct pileus_scene pileus_scene;
 
 /** Reads a scene file (docs/scene.md). `overrides`: "key=value" texts as of the program's --set.
@@ -157,6 +164,9 @@ PILEUS_API pileus_code pileus_key_at(uint32_t index, pileus_key* key, pileus_err
 
 /* ---- Worlds ------------------------------------------------------------------------------ */
 
+/* Threads: worlds are made at once on any threads, and one world is used by any number at once.
+ * Lifetime: until it and all of its sessions are freed; what its host's functions point to as long.
+ */
 typedef struct pileus_world pileus_world;
 
 /** Sizes before memory. */
@@ -209,6 +219,11 @@ PILEUS_API void pileus_world_free(pileus_world* world);
 
 /* ---- Sessions ---------------------------------------------------------------------------- */
 
+/* Threads: different sessions at once; one session on any thread, but one at a time, functions that
+ * only tell included. pileus_session_cancel alone may come at any time. Lifetime: until it is
+ * freed, not while a call runs; it keeps its world, and its host's functions must stay as long.
+ * Structs and arrays that are handed over are copied before a call returns, buffers of a frame
+ * written. */
 typedef struct pileus_session pileus_session;
 
 /** Prepares the scene's method over a world made from the same scene, or from one with the same
@@ -314,6 +329,15 @@ PILEUS_API pileus_code pileus_session_set_placement(pileus_session* session,
                                                     const pileus_placement* placement,
                                                     pileus_error* error);
 
+/** Takes extinction, albedo, emission and phase function of each medium from another scene with as
+ * many media, of which nothing else counts. Light begins anew; all that was set stays. Pictures
+ * have the bits of a session that was made over a world of such a scene. Densities are not read or
+ * made again where they are one medium of the program's own shapes, or cells of your memory.
+ * PILEUS_ERROR_INPUT: a flight; densities of your memory but for one medium of cells;
+ * PILEUS_ERROR_LIMIT. After a fault the session is as it was. */
+PILEUS_API pileus_code pileus_session_set_media(pileus_session* session, const pileus_scene* scene,
+                                                pileus_error* error);
+
 typedef enum pileus_depth {
     PILEUS_DEPTH_DISTANCE = 0, /**< metres along each pixel's ray; infinity: nothing */
     PILEUS_DEPTH_VIEW_Z = 1,   /**< metres along the view's axis; infinity: nothing */
@@ -386,6 +410,17 @@ typedef enum pileus_blend {
     PILEUS_BLEND_MEDIA = 2 /**< the media alone, premultiplied by their alpha */
 } pileus_blend;
 
+/** A layer of a picture, numbers of one channel: one of docs/formats.md, "Pictures out", that
+ * every picture has, as "R", or output.layers of the scene of a session whose host asked for
+ * layers, as "tau". */
+typedef struct pileus_layer {
+    uint32_t struct_size;
+    uint32_t reserved;
+    const char* name;
+    float* values;  /**< as many as the camera has pixels, rows as pileus_frame.bottom_up tells */
+    int64_t stride; /**< bytes from row to row; 0: tightly packed */
+} pileus_layer;
+
 /** Buffers of the caller, for one picture. */
 typedef struct pileus_frame {
     uint32_t struct_size;
@@ -400,6 +435,10 @@ typedef struct pileus_frame {
     uint32_t depth_kind;   /**< a pileus_depth */
     uint64_t* hash;        /**< null: none is made; else of the whole picture, as the program's */
     uint32_t depth_format; /**< a pileus_depth_format: what lies at `depth` */
+    uint32_t layer_count;  /**< of `layers`, up to 256; not of flights and skies of clouds */
+    /** Each as a file of the picture would have it, of which a hand-over mixes none. Elements have
+     * the size that the first tells. PILEUS_ERROR_INPUT: one that the picture has not. */
+    const pileus_layer* layers;
 } pileus_frame;
 
 /** Draws what the session holds now. Light is not traced: see pileus_session_step. */
@@ -427,6 +466,8 @@ PILEUS_API pileus_code pileus_session_report(const pileus_session* session, char
                                              size_t* needed, pileus_error* error);
 
 /* ---- Work -------------------------------------------------------------------------------- */
+
+/* Threads and lifetime: as the other functions of a session. */
 
 /** What a frame may cost, in units that no clock decides: the same work makes the same bits on any
  * machine. 0 in a member: as the scene has it. */
@@ -500,6 +541,8 @@ PILEUS_API pileus_code pileus_session_fit(pileus_session* session, const pileus_
 
 /* ---- Hand-over --------------------------------------------------------------------------- */
 
+/* Threads: both sessions are used by this call alone. Lifetime: each stays its own handle. */
+
 /** Exchanges two sessions over different worlds: from its next picture on `session` draws the world
  * of `next` by the light that `next` was given, and its own last picture fades away over `frames`
  * pictures; picture i of them has i / frames of the new world. 0 and 1 switch at once, and so does
@@ -523,8 +566,9 @@ PILEUS_API pileus_code pileus_session_hand_over(pileus_session* session, pileus_
 
 /* The sky around clouds is a session over a scene without media: its camera, sun, air or
  * environment, ground, depths and frame number are those of the pictures, and are set in it. A kind
- * is a world and a scene as for a session of its own. One thread uses a sky and its clouds at a
- * time. docs/clouds.md */
+ * is a world and a scene as for a session of its own. docs/clouds.md
+ * Threads: one uses a sky and its clouds at a time. Lifetime: clouds keep their sky; worlds and
+ * scenes of kinds are needed only while they are added. */
 typedef struct pileus_clouds pileus_clouds;
 
 /** Clouds in a sky, none at first. `sky` may be drawn by itself, too, and is then without clouds;
@@ -595,7 +639,8 @@ PILEUS_API pileus_code pileus_clouds_stats(const pileus_clouds* clouds, pileus_c
 
 /* Sessions whose memory lies in one block of the caller; none is asked for once one is open. All of
  * it is in the library of the flight profile, too, with the pileus_session_* of one method.
- * docs/flight.md says what is promised and how it is checked. */
+ * docs/flight.md says what is promised and how it is checked.
+ * Threads: as sessions; different blocks at once. Lifetime: that of the block. */
 
 /** What the head of a packed scene tells. The program makes one: `pileus pack SCENE -o FILE`. */
 typedef struct pileus_packed {
@@ -672,6 +717,8 @@ PILEUS_API pileus_code pileus_flight_usage(const pileus_session* session, pileus
 
 /* ---- Comparing --------------------------------------------------------------------------- */
 
+/* Threads: all at once. Pictures are read while a call runs. */
+
 /** Linear radiances in the caller's memory, rows from the top. */
 typedef struct pileus_picture {
     uint32_t struct_size;
@@ -732,6 +779,7 @@ PILEUS_STRUCT(6, lamp) /* a point of intensity 1; as a spot down, cone_deg 40; e
 PILEUS_STRUCT(0, placement)
 PILEUS_STRUCT(0, depth_image) /* distances */
 PILEUS_STRUCT(0, progress)
+PILEUS_STRUCT(0, layer)
 PILEUS_STRUCT(0, frame) /* RGBA8, the whole picture in place of what the buffer holds */
 PILEUS_STRUCT(0, stats)
 PILEUS_STRUCT(0, work)     /* as the scene has it */
@@ -749,6 +797,8 @@ PILEUS_STRUCT(0, figures)
 PILEUS_STRUCT(0, key)
 
 /* ---- Helpers ----------------------------------------------------------------------------- */
+
+/* Threads: all at once. */
 
 /** Turns `position_m` about the vertical axis through `target_m`, counter-clockwise seen from
  * above, by the bits of the program's animation.camera_orbit_deg. */

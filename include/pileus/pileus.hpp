@@ -107,6 +107,7 @@ struct Host {
     std::function<void(const char* line)> log;  ///< what is doubtful about a picture
     std::function<void(const char* stage, double share)> progress;  ///< share done, 0 to 1
     std::function<bool()> stop;  ///< asked now and then; true ends a step early
+    bool layers = false;         ///< sessions can give their scene's output.layers: Frame::layers
 };
 
 namespace detail {
@@ -169,6 +170,7 @@ struct Lent {
         given.isa = host.isa.empty() ? nullptr : host.isa.c_str();
         given.memory_limit = host.memory_limit;
         given.user = this;
+        given.layers = host.layers ? 1 : 0;
         if (host.allocate)
             given.allocate = [](void* user, std::size_t bytes, std::size_t alignment) {
                 return of(user).allocate(bytes, alignment);
@@ -391,6 +393,13 @@ enum class Blend : std::uint32_t {
 };
 
 /// Buffers of the caller, for one picture.
+/// A channel of the picture, as pileus_layer.
+struct Layer {
+    std::string name;         ///< "R", "A", "tau", ...: docs/formats.md, "Pictures out"
+    float* values = nullptr;  ///< as many as the camera has pixels
+    std::int64_t stride = 0;  ///< bytes from row to row; 0: tightly packed
+};
+
 struct Frame {
     void* colour = nullptr;  ///< first byte of the first row in memory; null: none
     Format format = Format::kRgba8Srgb;
@@ -403,6 +412,7 @@ struct Frame {
     bool depth_halves = false;  ///< `depth` are IEEE halves, not floats
     std::int64_t depth_stride = 0;
     std::uint64_t* hash = nullptr;  ///< of the whole picture, as the program's; null: none is made
+    std::vector<Layer> layers;
 };
 
 /// What a step counts.
@@ -577,8 +587,17 @@ private:
 
 namespace detail {
 
-inline pileus_frame frame_of(const Frame& frame) {
+/// Its layers lie in `layers`.
+inline pileus_frame frame_of(const Frame& frame, std::vector<pileus_layer>& layers) {
     auto c = cleared<pileus_frame>();
+    for (const Layer& layer : frame.layers) {
+        layers.push_back(cleared<pileus_layer>());
+        layers.back().name = layer.name.c_str();
+        layers.back().values = layer.values;
+        layers.back().stride = layer.stride;
+    }
+    c.layers = layers.data();
+    c.layer_count = count_of(layers.size());
     c.colour = frame.colour;
     c.colour_stride = frame.colour_stride;
     c.format = static_cast<std::uint32_t>(frame.format);
@@ -761,9 +780,13 @@ public:
             [&](pileus_error* error) { return pileus_session_step(get(), units, done, error); });
     }
 
+    /// Optics of the media of another scene, as pileus_session_set_media.
+    Status set_media(const Scene& scene) { return call(pileus_session_set_media, scene.get()); }
+
     /// Draws what the session holds now. Light is not traced: see step.
     Status render(const Frame& frame) {
-        const pileus_frame c = detail::frame_of(frame);
+        std::vector<pileus_layer> layers;
+        const pileus_frame c = detail::frame_of(frame, layers);
         return call(pileus_session_render, &c);
     }
 
@@ -913,7 +936,8 @@ public:
 
     /// Draws sky, ground and clouds for what the sky is set to now, as Session::render does.
     Status render(const Frame& frame) {
-        const pileus_frame c = detail::frame_of(frame);
+        std::vector<pileus_layer> layers;
+        const pileus_frame c = detail::frame_of(frame, layers);
         return detail::status_of(
             [&](pileus_error* error) { return pileus_clouds_render(get(), &c, error); });
     }

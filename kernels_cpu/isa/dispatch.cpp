@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses the kernel table: the widest this machine runs, or the one asked for by name.
 // in: PILEUS_HAVE_<ISA> from the build, the processor's word -> out: a table.
+// Intel, Software Developer's Manual, CPUID leaves 1 and 7, XGETBV
+#if defined(PILEUS_HAVE_AVX2) || defined(PILEUS_HAVE_AVX512)
+#define PILEUS_ASKS_PROCESSOR 1
+#include <cpuid.h>
+#endif
+
 #include "kernels_cpu/isa/kernels.h"
 
 namespace pileus {
@@ -29,6 +35,32 @@ bool same(const char* a, const char* b) {
     return *a == *b;
 }
 
+#ifdef PILEUS_ASKS_PROCESSOR
+// Not every compiler's runtime tells what the processor and its system run.
+
+/// Registers that the system keeps for each thread, XCR0; 0: it keeps none beyond SSE's.
+std::uint32_t kept_registers() {
+    constexpr unsigned kOsSaves = 1u << 27;
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & kOsSaves) == 0) return 0;
+    std::uint32_t low = 0, high = 0;
+    asm("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    return low;
+}
+
+bool runs_set(std::uint32_t registers, unsigned features) {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return (kept_registers() & registers) == registers &&
+           __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & features) == features;
+}
+
+[[maybe_unused]] bool runs_avx2() { return runs_set(0x6, 1u << 5); }
+/// F, DQ, BW and VL.
+[[maybe_unused]] bool runs_avx512() {
+    return runs_set(0xe6, 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31);
+}
+#endif
+
 }  // namespace
 
 const KernelTable* kernel_table_at(int i) {
@@ -44,12 +76,10 @@ const KernelTable* kernel_table_at(int i) {
     runnable[count++] = &kernel_table_sse2;
 #endif
 #ifdef PILEUS_HAVE_AVX2
-    if (__builtin_cpu_supports("avx2")) runnable[count++] = &kernel_table_avx2;
+    if (runs_avx2()) runnable[count++] = &kernel_table_avx2;
 #endif
 #ifdef PILEUS_HAVE_AVX512
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        runnable[count++] = &kernel_table_avx512;
+    if (runs_avx512()) runnable[count++] = &kernel_table_avx512;
 #endif
     return i >= 0 && i < count ? runnable[i] : nullptr;
 }

@@ -125,6 +125,8 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
         if (!take(frame, given)) return no_struct("frame");
         FrameTarget target;
         PILEUS_TRY(take_target(given, clouds->sky->session->camera(), target));
+        if (!target.layers.empty())
+            return Status::bad_input("frame.layers: of skies of clouds, allowed: none");
         std::uint64_t hash = 0;
         target.hash = given.hash != nullptr ? &hash : nullptr;
         PILEUS_TRY(clouds->clouds.render(target));

@@ -10,6 +10,7 @@ namespace pileus::api {
 namespace {
 
 constexpr float kMaxStops = 100;
+constexpr std::uint32_t kMaxLayers = 256;
 
 Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
     if (f.format > PILEUS_FORMAT_RGB10A2_SRGB)
@@ -56,6 +57,30 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
                        target.depth);
 }
 
+Status take_layers(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
+    if (f.layer_count > kMaxLayers)
+        return Status::bad_input("frame.layer_count: " + std::to_string(f.layer_count) +
+                                 ", allowed: up to " + std::to_string(kMaxLayers));
+    if (f.layer_count > 0 && f.layers == nullptr) return no_struct("frame.layers");
+    target.layers.resize(f.layer_count);
+    for (std::uint32_t i = 0; i < f.layer_count; ++i) {
+        pileus_layer given;
+        if (!take_element(f.layers, i, given)) return no_element("frame.layers", i);
+        const std::string key = "frame.layers[" + std::to_string(i) + "]";
+        if (given.name == nullptr || given.values == nullptr)
+            return Status::bad_input(key + (given.name == nullptr ? ".name" : ".values") +
+                                     ": null, allowed: a pointer");
+        LayerTarget& layer = target.layers[i];
+        layer.name = given.name;
+        layer.rows.first = reinterpret_cast<unsigned char*>(given.values);
+        layer.rows.bottom_up = f.bottom_up != 0;
+        PILEUS_TRY(take_stride(key.c_str(), given.stride,
+                               std::int64_t(camera.resolution[0]) * std::int64_t(sizeof(float)),
+                               std::uint32_t(camera.resolution[1]), layer.rows));
+    }
+    return Status::ok();
+}
+
 /// A line for each accident, the first time that it happens.
 void tell_accidents(pileus_session& session) {
     const pileus_host& host = session.host->given;
@@ -75,7 +100,8 @@ void tell_accidents(pileus_session& session) {
 
 Status take_target(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
     PILEUS_TRY(take_colour(f, camera, target));
-    return take_depth(f, camera, target);
+    PILEUS_TRY(take_depth(f, camera, target));
+    return take_layers(f, camera, target);
 }
 
 Status render_frame(const pileus_frame& f, pileus_session& session) {

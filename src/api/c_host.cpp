@@ -86,6 +86,7 @@ Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& hos
     parts->executor = {h.run, h.user};
     options.threads = int(h.threads);
     if (h.isa != nullptr) options.isa = h.isa;
+    options.layers = h.layers != 0;
     if (h.memory_limit > 0) options.limits[LimitId::kMemory] = h.memory_limit;
     const HostParts* kept = parts.get();
     if (h.progress != nullptr)

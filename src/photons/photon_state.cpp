@@ -91,6 +91,10 @@ int photon_batches(const PhotonState& state) {
     if (!ring.animated && ring.next_generation > 0 && ring.next_generation < slots)
         slots = ring.next_generation;
     if (!state.error_layer || slots < 2) return 0;
+    // A host's ring is full, or tells of no error: its oldest slot may be any.
+    if (state.hosted)
+        for (const PhotonSlot& slot : ring.photons.slots)
+            if (slot.generations == 0) return 0;
     // An animation's ring may hold more generations than the blender has planes for.
     return int(slots < kMaxBatches ? slots : kMaxBatches);
 }

@@ -35,8 +35,6 @@ Status finish_frame(const Context& context, const OutputSettings& output, const 
     });
     PILEUS_TRY(layers);
     if (digests) report.digests.emplace_back("colours", colours.hex());
-    if (!planes.occlusion.empty())
-        image.channels.push_back({"occlusion", std::move(planes.occlusion)});
     report.executed = {{"depth_tests", planes.opaque_depth.size()},
                        {"depths_stored", planes.half_depth.size()}};
     if (parts.batches) report.executed.emplace_back("batches", std::uint64_t(planes.batches));

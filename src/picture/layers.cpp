@@ -259,6 +259,8 @@ Status make_layers(const Planes& planes, int width, int height, const OutputSett
         PILEUS_TRY(add_error(planes, image));
         summarise(image, planes, report);
     }
+    if (!planes.occlusion.empty())
+        PILEUS_TRY(add_plane("occlusion", planes.occlusion.span(), image));
     report.counters.emplace_back("nan", broken);
     return Status::ok();
 }

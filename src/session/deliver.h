@@ -17,6 +17,8 @@ struct RunStart {
 
 /// Lights and draws a frame with all of its layers.
 Status draw_frame(const Scene& scene, Session& session, const FilmFrame& step, Image& image);
+/// Of these layers those that are of surfaces, of a frame that was drawn: reflectance, shadow.
+Status add_surface_layers(const Scene& scene, const Session& session, int frame, Image& image);
 
 /// Names the picture by its bits before anything else is written about it.
 void take_hash(const Context& context, const Image& image, Report& report);

@@ -45,7 +45,7 @@ void count_water(const Scene& scene, const World& world, Report& report) {
     if (particles) report.counters.emplace_back("particles_uncoloured", world.medium.volume.plain);
 }
 
-Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {
+Status show_shadow(const Scene& scene, const Session& session, int frame, Image& image) {
     const Context& context = session.context();
     const Medium& medium = session.world().medium;
     Majorants majorants;
@@ -126,13 +126,16 @@ FrameState opened_at(const Scene& scene, int frame) {
     return out;
 }
 
+Status add_surface_layers(const Scene& scene, const Session& session, int frame, Image& image) {
+    if (scene.output.layer_reflectance)
+        PILEUS_TRY(add_reflectance(session.scenery().lighting, image));
+    return scene.output.layer_shadow ? show_shadow(scene, session, frame, image) : Status::ok();
+}
+
 Status draw_frame(const Scene& scene, Session& session, const FilmFrame& step, Image& image) {
     PILEUS_TRY(session.render_image(step, image));
     if (!session.is_first() || session.shows_view()) return Status::ok();
-    if (scene.output.layer_reflectance)
-        PILEUS_TRY(add_reflectance(session.scenery().lighting, image));
-    return scene.output.layer_shadow ? show_shadow(scene, session, step.frame, image)
-                                     : Status::ok();
+    return add_surface_layers(scene, session, step.frame, image);
 }
 
 bool frames_stand_alone(const Scene& scene) { return has_worlds(scene) || has_moving_sky(scene); }

@@ -37,6 +37,7 @@ struct RenderOptions {
     const Image* sky = nullptr;          ///< in place of the sky map's file; null: that
     std::shared_ptr<const World> world;  ///< of the scene, where there is one; null: it is made
     const HostMedia* media = nullptr;    ///< likewise of the files and recipes of media
+    bool layers = false;  ///< of a host's session: those of the scene's output.layers
     bool digests = true;  ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     WorkPart part;                        ///< of a frame, that a session of parts works on

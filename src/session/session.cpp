@@ -20,13 +20,13 @@ namespace {
 constexpr int kLiveFrames = 2;
 
 /// What a host cannot ask for is left out; what it may ask for is planned.
-void make_live(bool parts, Scene& scene) {
+void make_live(bool parts, bool layers, Scene& scene) {
     scene.animation = Animation{};
     scene.animation.present = true;
     scene.animation.frames = kLiveFrames;
-    static_cast<FileLayers&>(scene.output) = FileLayers{};
+    if (!layers) static_cast<FileLayers&>(scene.output) = FileLayers{};
     scene.output.layer_depth = !scene.camera.flux;
-    scene.output.layer_cloud = parts;
+    scene.output.layer_cloud = parts || (layers && scene.output.layer_cloud);
     scene.view_files.depth.clear();
     // A change is checked on a copy of the scene, and its faults name no line of a file.
     scene.text.clear();
@@ -106,8 +106,9 @@ Status Session::open_either(const Scene& scene, const FrameState& frame,
         return at_key(scene_, "camera.crop",
                       Status::bad_input("of pictures in files alone, allowed: left out"));
     const Status found = find_method(scene_, row_);
-    if (hosted) make_live(found && row_.keeps_parts, scene_);
+    if (hosted) make_live(found && row_.keeps_parts, options.layers, scene_);
     host_ = scene_;
+    if (hosted) keep_opened();
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (hosted) context_.frames = kLiveFrames;
     context_.digests = !hosted && options.digests;
@@ -229,19 +230,22 @@ Status Session::render(const FrameTarget& target) {
     last_.planes = nullptr;
     Planes* planes = nullptr;
     // A picture into nothing makes ready what the first one after a hand-over needs.
-    const bool nothing = !target.has_colour && target.hash == nullptr;
+    const bool nothing = !target.has_colour && target.hash == nullptr && target.layers.empty();
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
     scenery_.depths =
-        (rays && (target.has_depth || row_.keeps_parts || nothing)) || fading_ != nullptr;
+        (rays && (target.has_depth || row_.keeps_parts || nothing || !target.layers.empty())) ||
+        fading_ != nullptr;
     report_.counters.clear();
-    // A hash and depths are of whole planes.
+    // A hash, depths and layers are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
-                      fading_ == nullptr && is_late(target.colour, *context_.kernels);
+                      target.layers.empty() && fading_ == nullptr &&
+                      is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
     RenderAsk ask;
     ask.late = late ? &late_ : nullptr;
     PILEUS_TRY(draw(view(), ask, planes));
+    if (!target.layers.empty()) PILEUS_TRY(show_layers(view(), target.layers, *planes));
     const Planes* const fresh = planes;
     if (fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scenery_, made_.method->keeps_planes(), planes));

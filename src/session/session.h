@@ -19,6 +19,12 @@ Status make_world(const Scene& scene, const RenderOptions& options, std::shared_
 Status make_world(const Scene& scene, const RenderOptions& options,
                   std::shared_ptr<const World>& world);
 
+/// A channel of an image, by its name, and the floats that it is written to.
+struct LayerTarget {
+    std::string name;
+    Rows rows;
+};
+
 /// What a picture is written to; the parts that are null are left out.
 struct FrameTarget {
     bool has_colour = false;
@@ -28,6 +34,7 @@ struct FrameTarget {
     DepthKind depth_kind = DepthKind::kDistance;
     bool depth_halves = false;
     std::uint64_t* hash = nullptr;
+    std::vector<LayerTarget> layers;
 };
 
 struct SessionStats {
@@ -120,6 +127,10 @@ public:
     /// In place of all that there were: point, spot and parallel lights, with `held` numbers.
     Status set_lights(const std::vector<LightSettings>& lights);
     Status set_placement(const Double3& offset_m, double yaw_deg);
+    /// Extinction, albedo, emission and phase functions of a scene's media, as many as there are;
+    /// light begins anew. The bits are those of a session that is opened so. kBadInput, kLimit, the
+    /// readers': all is as it was.
+    Status set_media(const Scene& scene);
     Status set_frame(int number);
     /// Null rows: nothing solid.
     Status set_depth(const Rows* rows, DepthKind kind);
@@ -210,6 +221,9 @@ private:
     FrameView view() { return scenery_.view(host_.number); }
     /// The method's picture, seen through the air.
     Status draw(const FrameView& view, const RenderAsk& ask, Planes*& planes);
+    /// Channels of the image that the picture would be in a file.
+    Status show_layers(const FrameView& view, const std::vector<LayerTarget>& layers,
+                       const Planes& planes);
     Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
                        bool hosted, bool exact, std::shared_ptr<const World> world);
     Status film_frame(const FilmFrame& step, Image& image);
@@ -230,6 +244,8 @@ private:
     /// Whether the method is for this scene, this session and its world; finds a view of it.
     Status check_method(bool hosted, const World* world);
     void tell_plan(bool exact);
+    void keep_opened();
+    Status take_world(std::vector<MediumSettings>& media, std::shared_ptr<const World>& world);
     /// As trace, where a host may end it.
     Status trace_passes(std::uint64_t held, std::uint64_t units, std::uint64_t& done);
     Status take_frame(int frame);
@@ -245,6 +261,8 @@ private:
     std::unique_ptr<ThreadPool> threads_ = std::make_unique<ThreadPool>();  ///< where none is lent
     Scene scene_;      ///< as the method sees it: in the media's coordinates
     FrameState host_;  ///< as a host set it, or as the file has it
+    std::shared_ptr<const FrameState> opened_;  ///< what the session began with; not in flights
+    std::shared_ptr<const World> base_world_;   ///< before media were set; null: none were
     DepthScale depth_scale_;
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
     Changes changed_;

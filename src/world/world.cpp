@@ -32,15 +32,26 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return allocate(arrays::density(medium.grid), medium.volume.density);
 }
 
+Status copy_cells(const Volume& from, Volume& to) {
+    const Span<const float> cells = from.density.span();
+    PILEUS_TRY(to.density.resize(cells.size, "density as it was given"));
+    std::memcpy(to.density.data(), cells.data, cells.size * sizeof(float));
+    to.size = from.size;
+    return Status::ok();
+}
+
 /// Cells as deep as light may be kept in, and where photons begin in them.
 Status refine_cells(const Context& context, World& world) {
     Medium& medium = world.medium;
     const std::array<int, 3> factor = finer_cells(medium, context.limits);
-    if (!world.data_cells && factor != std::array<int, 3>{1, 1, 1}) {
+    world.refined = !world.data_cells && factor != std::array<int, 3>{1, 1, 1};
+    if (world.refined) {
         world.media_plan.need(told_finer_cells(medium, factor).c_str());
         keep_larger({"density before its finer cells",
                      bytes_of(4, voxel_count(medium.grid), std::uint64_t(medium.count)), 0},
                     world.source.making);
+        if (world.given && medium.count == 1 && !medium.volume.density.empty())
+            PILEUS_TRY(copy_cells(medium.volume, world.unrefined));
         PILEUS_TRY(refine_medium(factor, context.threads, medium));
     }
     PILEUS_TRY(make_emitters(medium));
@@ -128,6 +139,8 @@ Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
     const bool cells = given.of(0).cells != nullptr;
+    for (const MediumValues& values : given.media)
+        world.given = world.given || values.cells != nullptr || values.particles != nullptr;
     world.data_cells = use == WorldUse::kDataCells;
     world.direct_sky = use == WorldUse::kSkyInPlace && !cells && is_direct_sky(scene);
     world.shows_particles = use == WorldUse::kParticles && !cells && shows_particles(scene);

@@ -28,6 +28,9 @@ struct World {
     Solids solids;
     bool fine_cells = false;       ///< for light that is kept in them: finer ones than the data's
     bool deep_cells = false;       ///< the data's are too deep for that
+    bool refined = false;          ///< the grid's cells are parts of the densities' own
+    bool given = false;            ///< a host gave densities of its memory
+    Volume unrefined;              ///< those of one medium, where they were refined
     bool shows_particles = false;  ///< its medium's grid is for shadows alone
     ParticleSet particles;         ///< of such a world: metres as the grid's, extinction in 1/m
     std::string density_digest;    ///< made once for runs that share the world; empty: not yet

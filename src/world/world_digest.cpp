@@ -13,7 +13,7 @@ std::uint64_t bytes_of_world(const World& world) {
                           world.particles.position.bytes() + world.particles.radius.bytes() +
                           world.particles.density.bytes() + world.particles.colour.bytes() +
                           world.particles.emission.bytes() + world.particles.velocity.bytes() +
-                          world.particles.id.bytes();
+                          world.particles.id.bytes() + world.unrefined.density.bytes();
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
     bytes += world.medium.detail.tile.bytes();

@@ -70,15 +70,15 @@ class Faults(unittest.TestCase):
                       lambda: session.set_ground(2), lambda: session.set_frame(-1),
                       lambda: session.set_placement(yaw_deg=math.nan),
                       lambda: session.set_placement((0, 0, -1e4)),
-                      lambda: session.set_sky(np.ones((4, 4, 3))),
-                      lambda: session.set_sky(np.ones((4, 0, 3))),
+                      lambda: session.set_environment(np.ones((4, 4, 3))),
+                      lambda: session.set_environment(np.ones((4, 0, 3))),
                       lambda: session.set_camera(POSITION, TARGET, near=2, far=1),
                       lambda: session.set_camera(POSITION, TARGET, height=math.nan),
                       lambda: session.render(exposure=math.nan),
-                      lambda: session.set_lights([{"type": "lamp"}]),
-                      lambda: session.set_lights([{"type": "point"}]),
-                      lambda: session.set_lights([{"type": "directional", "radius": 1}]),
-                      lambda: session.set_lights([{"type": "spot", "position": (1, 2, 3)}]),
+                      lambda: session.set_lamps([{"type": "lamp"}]),
+                      lambda: session.set_lamps([{"type": "point"}]),
+                      lambda: session.set_lamps([{"type": "directional", "radius": 1}]),
+                      lambda: session.set_lamps([{"type": "spot", "position": (1, 2, 3)}]),
                       lambda: session.set_matrices(np.eye(3), np.eye(4)),
                       lambda: session.set_depth(np.ones((14, 24)), "buffer"),
                       lambda: session.render(blend="under")):
@@ -103,7 +103,7 @@ class Faults(unittest.TestCase):
             session.step(2**32 - 1)
         timer.join()
         session.step(1)
-        self.assertGreater(session.light.units, 0)
+        self.assertGreater(session.progress.units, 0)
         self.assertGreater(session.render()[..., :3].max(), 0)
 
     def test_a_doubtful_picture_warns(self):
@@ -160,7 +160,7 @@ class Threads(unittest.TestCase):
         worker.join()
         self.assertGreater(counted, 5)
         self.assertGreater(refused, 0)  # one session serves one thread at a time
-        self.assertGreaterEqual(session.light.units, 1)
+        self.assertGreaterEqual(session.progress.units, 1)
 
     def test_a_world_outlives_its_name(self):
         session = open_session()

@@ -39,7 +39,7 @@ class Program(unittest.TestCase):
                     session = open_session(method) if method != "path" else pileus.Session(
                         pileus.World(pileus.Scene(CUMULUS, {"method.name": method})))
                     done = session.step()
-                    self.assertEqual(done, session.light.whole if session.light.unit else 0)
+                    self.assertEqual(done, session.progress.whole if session.progress.unit else 0)
                     self.assertEqual(session.render(hash=True).hash, theirs["digests"]["image"])
                     ours = session.report()
                     self.assertEqual(ours["hash"], theirs["hash"])
@@ -201,20 +201,20 @@ class Settings(unittest.TestCase):
         changed()
         session.set_sun(None)
         changed()
-        session.set_sky([0.0625, 0.125, 0.5])
+        session.set_environment([0.0625, 0.125, 0.5])
         changed()
-        session.set_sky(None)
+        session.set_environment(None)
         session.set_ground(None)
         self.assertEqual(np.abs(session.render()[..., :3]).max(), 0)
-        session.set_sky(0.5)
+        session.set_environment(0.5)
         changed()
-        session.set_lights([{"type": "point", "position": (100, -250, 1200), "intensity": 1e6},
+        session.set_lamps([{"type": "point", "position": (100, -250, 1200), "intensity": 1e6},
                             {"type": "spot", "position": (-1500, 0, 900), "direction": (1, 0, 0),
                              "cone_deg": 20, "intensity": [1e6, 0, 0]},
                             {"type": "directional", "azimuth_deg": 90, "irradiance": 0.5}])
         changed()
-        session.set_lights([])
-        session.set_sky([0.0625, 0.125, 0.25])
+        session.set_lamps([])
+        session.set_environment([0.0625, 0.125, 0.25])
         session.set_sun(120, 35)
         session.set_ground(0.25, altitude=0)
         self.assertEqual(session.render(hash=True).hash, first)
@@ -241,21 +241,21 @@ class Settings(unittest.TestCase):
         session.set_sun(None)
         sky = np.zeros((8, 16, 3), np.float32)
         sky[:4] = 1, 2, 3
-        session.set_sky(sky)
+        session.set_environment(sky)
         session.step(2)
         one = session.render()
         self.assertGreater(one[..., 2].max(), 2.9)
-        session.set_sky(sky, scale=2, rotation_deg=90)
+        session.set_environment(sky, scale=2, rotation_deg=90)
         session.set_sun(None)  # the checks of other settings know the map as well
-        session.set_sky(sky, scale=2)
+        session.set_environment(sky, scale=2)
         session.step(2)
         np.testing.assert_allclose(session.render()[..., :3], 2 * one[..., :3], rtol=1e-5)
-        session.set_sky(None)
+        session.set_environment(None)
         session.step(2)
         self.assertEqual(session.render()[..., :3].max(), 0)
         for bad in (np.zeros((8, 16, 4)), [1, 2], np.zeros((0, 0, 3)), -sky, sky * math.nan):
             with self.assertRaises(pileus.BadInput):
-                session.set_sky(bad)
+                session.set_environment(bad)
 
     def test_densities_run_z_y_x(self):
         scene = pileus.Scene(BOX)

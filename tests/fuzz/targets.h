@@ -8,6 +8,7 @@
 
 #define PILEUS_FUZZ_TARGETS(ROW) \
     ROW(blocks)                  \
+    ROW(calls)                   \
     ROW(exr)                     \
     ROW(grib)                    \
     ROW(hash_list)               \

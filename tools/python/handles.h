@@ -50,7 +50,8 @@ struct Freed {
 /// What Python lends to a handle: threads, a log, and an end by Ctrl-C. It stays where it is.
 class Host {
 public:
-    Host(std::uint32_t threads, const std::string& isa, std::uint64_t memory_limit);
+    Host(std::uint32_t threads, const std::string& isa, std::uint64_t memory_limit,
+         bool layers = false);
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 

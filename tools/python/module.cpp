@@ -146,8 +146,10 @@ void raise_failure(const Failure& failure) {
 
 }  // namespace
 
-Host::Host(std::uint32_t threads, const std::string& isa, std::uint64_t memory_limit) : isa_(isa) {
+Host::Host(std::uint32_t threads, const std::string& isa, std::uint64_t memory_limit, bool layers)
+    : isa_(isa) {
     host_.threads = threads;
+    host_.layers = layers ? 1 : 0;
     host_.isa = isa_.empty() ? nullptr : isa_.c_str();
     host_.memory_limit = memory_limit;
     host_.user = this;

@@ -17,10 +17,10 @@ void copy3(const Three& from, To (&to)[3]) {
 
 std::unique_ptr<Session> make_session(const std::shared_ptr<World>& world, const Scene& scene,
                                       std::uint32_t threads, const std::string& isa,
-                                      std::uint64_t memory_limit) {
+                                      std::uint64_t memory_limit, bool layers) {
     auto session = std::make_unique<Session>();
     session->world = world;
-    session->host = std::make_unique<Host>(threads, isa, memory_limit);
+    session->host = std::make_unique<Host>(threads, isa, memory_limit, layers);
     pileus_session* made = nullptr;
     call([&](pileus_error* error) {
         return pileus_session_create(world->world.get(), scene.scene.get(), session->host->given(),
@@ -85,8 +85,8 @@ void set_sun(Session& session, bool present, double azimuth_deg, double elevatio
     set(session, pileus_session_set_sun, sun);
 }
 
-void set_sky(Session& session, bool present, const Three& radiance, const std::optional<Map>& map,
-             double scale, double rotation_deg) {
+void set_environment(Session& session, bool present, const Three& radiance,
+                     const std::optional<Map>& map, double scale, double rotation_deg) {
     auto sky = cleared<pileus_environment>();
     sky.present = present ? 1 : 0;
     copy3(radiance, sky.radiance);
@@ -117,7 +117,7 @@ void set_ground(Session& session, bool present, double altitude, double albedo) 
 /// its shadow.
 using LightNumbers = std::array<double, 16>;
 
-void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
+void set_lamps(Session& session, const std::vector<LightNumbers>& numbers) {
     const Turn turn(session);
     std::vector<pileus_lamp> lights;
     for (const LightNumbers& n : numbers) {
@@ -146,6 +146,13 @@ void set_placement(Session& session, const Three& offset, double yaw_deg) {
     set(session, pileus_session_set_placement, placement);
 }
 
+void set_media(Session& session, const Scene& scene) {
+    const Turn turn(session);
+    call([&](pileus_error* error) {
+        return pileus_session_set_media(session.session.get(), scene.scene.get(), error);
+    });
+}
+
 void set_depth(Session& session, const std::optional<py::array>& values, std::uint32_t kind,
                bool bottom_up) {
     const Turn turn(session);
@@ -171,7 +178,7 @@ void set_frame(Session& session, std::int32_t number) {
     });
 }
 
-py::tuple light(Session& session) {
+py::tuple progress(Session& session) {
     const Turn turn(session);
     auto info = cleared<pileus_progress>();
     call([&](pileus_error* error) {
@@ -195,11 +202,13 @@ py::dtype dtype_of(std::uint32_t format) {
                : py::dtype(format == PILEUS_FORMAT_RGBA16F ? "float16" : "float32");
 }
 
-/// Into arrays of the caller; the picture's hash where it is asked for.
+using NamedArrays = std::vector<std::pair<std::string, py::array_t<float>>>;
+
+/// Into arrays of the caller, layers into new ones; the picture's hash where it is asked for.
 std::optional<std::uint64_t> render(Session& session, const std::optional<py::array>& colour,
                                     std::uint32_t format, std::uint32_t blend, float exposure,
                                     const std::optional<py::array>& depth, std::uint32_t depth_kind,
-                                    bool wants_hash, bool bottom_up) {
+                                    bool wants_hash, bool bottom_up, const NamedArrays& named) {
     const Turn turn(session);
     const Size size = size_of(session);
     auto frame = cleared<pileus_frame>();
@@ -225,6 +234,19 @@ std::optional<std::uint64_t> render(Session& session, const std::optional<py::ar
             bad_input("depth: rows run the other way than those of colour, allowed: the same way");
         frame.bottom_up = up;
     }
+    std::vector<pileus_layer> layers;
+    for (const auto& layer : named) {
+        const ArrayRows rows =
+            rows_of("layers", layer.second, py::dtype::of<float>(), size[0], size[1], 0, true);
+        layers.push_back(cleared<pileus_layer>());
+        layers.back().name = layer.first.c_str();
+        layers.back().values = static_cast<float*>(rows.first);
+        layers.back().stride = rows.stride;
+    }
+    if (!layers.empty() && (frame.bottom_up != 0) != bottom_up)
+        bad_input("layers: rows run the other way than those of colour, allowed: the same way");
+    frame.layers = layers.data();
+    frame.layer_count = std::uint32_t(layers.size());
     std::uint64_t hash = 0;
     if (wants_hash) frame.hash = &hash;
     call([&](pileus_error* error) {
@@ -268,13 +290,14 @@ void add_session(py::module_& module) {
         .def("set_camera", &set_camera)
         .def("set_matrices", &set_matrices)
         .def("set_sun", &set_sun)
-        .def("set_sky", &set_sky)
+        .def("set_environment", &set_environment)
         .def("set_ground", &set_ground)
-        .def("set_lights", &set_lights)
+        .def("set_lamps", &set_lamps)
+        .def("set_media", &set_media)
         .def("set_placement", &set_placement)
         .def("set_depth", &set_depth)
         .def("set_frame", &set_frame)
-        .def("light", &light)
+        .def("progress", &progress)
         .def("step", &step)
         .def("render", &render)
         .def("stats", &stats)

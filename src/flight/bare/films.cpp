@@ -28,6 +28,10 @@ void place_at_frame(const FrameState&, int, Scene&) {}
 SunTurn turn_of_sun(const FrameView& view, int slices, std::int64_t turn) {
     return {slices, turn, view.lighting.to_sun, nullptr};
 }
+void Session::keep_opened() {}
+Status Session::show_layers(const FrameView&, const std::vector<LayerTarget>&, const Planes&) {
+    return Status::bad_input("frame.layers: of no flight, allowed: none");
+}
 // No host of a flight ends it.
 Status Session::trace_passes(std::uint64_t, std::uint64_t, std::uint64_t&) { return Status::ok(); }
 

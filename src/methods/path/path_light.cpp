@@ -29,10 +29,13 @@ Status make_alpha(const Context& context, const FrameView& view, PathState& stat
                         state.planes);
 }
 
-/// A host sees light before its media and behind, and no errors: but for a filter, which reads all.
+/// A host sees light before its media and behind, and no errors: but for layers, and a filter,
+/// which reads all.
 PathInput film_input(const Context& context, const FrameView& view, const PathState& state) {
     PathInput in = path_input(context, view, state);
-    in.brief = state.live && !path_filters(state.filter);
+    const OutputSettings& output = view.scene.output;
+    const bool layers = output.layer_light || output.layer_order || output.layer_error;
+    in.brief = state.live && !layers && !path_filters(state.filter);
     return in;
 }
 

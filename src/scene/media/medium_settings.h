@@ -93,6 +93,10 @@ struct PhaseSettings {
     std::string type = "isotropic";         ///< a name of phase_row.h
     std::map<std::string, double> numbers;  ///< those that the type asks for, and no others
     std::string file;                       ///< table, moments; as MediumFile::file
+
+    bool operator==(const PhaseSettings& o) const {
+        return type == o.type && numbers == o.numbers && file == o.file;
+    }
 };
 
 /// What a medium is at one value of the field that it shows; linear in between.
@@ -100,6 +104,10 @@ struct TransferRow {
     double value = 0;
     double extinction_per_m = 0;  ///< >= 0
     Float3 albedo{1, 1, 1};
+
+    bool operator==(const TransferRow& o) const {
+        return value == o.value && extinction_per_m == o.extinction_per_m && albedo == o.albedo;
+    }
 };
 
 enum class RawType { kUint8, kUint16, kFloat32 };
@@ -133,6 +141,12 @@ struct MediumOptics {
     Float3 emission{0, 0, 0};  ///< radiance per metre; >= 0
     PhaseSettings phase;
     std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it
+
+    bool operator==(const MediumOptics& o) const {
+        return extinction_per_m == o.extinction_per_m && extinction_scale == o.extinction_scale &&
+               albedo == o.albedo && emission == o.emission && phase == o.phase &&
+               transfer == o.transfer;
+    }
 };
 
 struct MediumSettings {

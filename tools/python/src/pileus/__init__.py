@@ -12,11 +12,11 @@ from ._compare import Figures, compare
 from ._core import orbit
 from ._errors import BadInput, CheckFailed, Error, Io, Limit, PictureWarning
 from ._scene import Scene, World, override_texts
-from ._session import Light, Picture, Session, Stats
+from ._session import Picture, Progress, Session, Stats
 
 __version__ = _core.version
-__all__ = ["BadInput", "CheckFailed", "Error", "Figures", "Io", "Light", "Limit", "Picture",
-           "PictureWarning", "Scene", "Session", "Stats", "World", "compare", "orbit", "render"]
+__all__ = ["BadInput", "CheckFailed", "Error", "Figures", "Io", "Limit", "Picture",
+           "PictureWarning", "Progress", "Scene", "Session", "Stats", "World", "compare", "orbit", "render"]
 
 
 def render(scene, colour=None, *, overrides=None, density=None, size=None, units=None, threads=0,

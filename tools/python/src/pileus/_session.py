@@ -24,7 +24,7 @@ _LIGHT_KEYS = {
 }
 
 
-class Light(NamedTuple):
+class Progress(NamedTuple):
     """Units of light: docs/embedding.md."""
 
     whole: int  # that a first picture should have; 0: the method traces none
@@ -46,17 +46,22 @@ class Stats(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """What render gives where depth or hash is asked for."""
+    """What render gives where depth, hash or layers are asked for."""
 
     colour: Optional[np.ndarray]
     depth: Optional[np.ndarray]
     hash: Optional[str]  # 16 hex digits, as of `pileus hash`
+    layers: Optional[dict] = None  # arrays [height, width] by their names
 
 
 def _choice(name, value, table):
     if value in table:
         return table[value]
     raise BadInput(f"{name}: {value!r}, allowed: {', '.join(table)}")
+
+
+def _warn_of_name(old, new):
+    warnings.warn(f"{old} is an older name of {new}", DeprecationWarning, stacklevel=3)
 
 
 def _three(name, value):
@@ -100,10 +105,12 @@ class Session:
     x points east, y north, z up.
     """
 
-    def __init__(self, world, scene=None, *, threads=0, isa="", memory_limit=0):
+    def __init__(self, world, scene=None, *, threads=0, isa="", memory_limit=0, layers=False):
+        """layers: pictures can have what output.layers of the scene names."""
         scene = world.scene if scene is None else scene
         self.world = world
-        self._core = _core.Session(world._handle, scene._handle, threads, isa or "", memory_limit)
+        self._core = _core.Session(world._handle, scene._handle, threads, isa or "", memory_limit,
+                                   layers)
 
     @property
     def size(self):
@@ -137,7 +144,7 @@ class Session:
         self._core.set_sun(present, azimuth_deg or 0.0, elevation_deg or 0.0,
                            _three("irradiance", irradiance))
 
-    def set_sky(self, light, *, scale=1.0, rotation_deg=0.0):
+    def set_environment(self, light, *, scale=1.0, rotation_deg=0.0):
         """A radiance (a number or three), a map [rows, columns, 3] or None: no sky.
 
         Rows of a map run from the zenith down; scale and rotation_deg are the map's.
@@ -147,13 +154,13 @@ class Session:
             sky_map = np.require(light, np.float32, "CA")
         elif light is not None:
             radiance = _three("sky", light)
-        self._core.set_sky(light is not None, radiance, sky_map, scale, rotation_deg)
+        self._core.set_environment(light is not None, radiance, sky_map, scale, rotation_deg)
 
     def set_ground(self, albedo, *, altitude=0.0):
         """A flat ground. set_ground(None): none."""
         self._core.set_ground(albedo is not None, altitude, albedo or 0.0)
 
-    def set_lights(self, lights):
+    def set_lamps(self, lamps):
         """Points, spots and parallel lights in place of all that there were; []: none.
 
         Each is a dict as a scene's [[light]]: {"type": "point", "position": (x, y, z),
@@ -161,7 +168,11 @@ class Session:
         "penumbra_deg", "intensity"}; {"type": "directional", "azimuth_deg", "elevation_deg",
         "irradiance"}. Lights are a number or three. "shadow_samples": on a sphere, 0 for the usual.
         """
-        self._core.set_lights([_light(light) for light in lights])
+        self._core.set_lamps([_light(lamp) for lamp in lamps])
+
+    def set_media(self, scene):
+        """Extinction, albedo, emission and phase functions of a Scene with as many media."""
+        self._core.set_media(scene._handle)
 
     def set_placement(self, offset=(0, 0, 0), yaw_deg=0.0):
         """Turns all media about the z axis, then shifts them. Nothing is prepared again."""
@@ -183,9 +194,25 @@ class Session:
         self._core.set_frame(number)
 
     @property
+    def progress(self):
+        """How much light there is, and what a step counts: Progress."""
+        return Progress(*self._core.progress())
+
+    def set_sky(self, light, **how):
+        """An older name of set_environment."""
+        _warn_of_name("set_sky", "set_environment")
+        self.set_environment(light, **how)
+
+    def set_lights(self, lights):
+        """An older name of set_lamps."""
+        _warn_of_name("set_lights", "set_lamps")
+        self.set_lamps(lights)
+
+    @property
     def light(self):
-        """How much light there is, and what a step counts: Light."""
-        return Light(*self._core.light())
+        """An older name of progress."""
+        _warn_of_name("light", "progress")
+        return self.progress
 
     @property
     def stats(self):
@@ -198,10 +225,10 @@ class Session:
 
     def step(self, units=None):
         """Traces so many units of light; left out: as many as a first picture should have."""
-        return self._core.step(self.light.whole if units is None else units)
+        return self._core.step(self.progress.whole if units is None else units)
 
     def render(self, colour=None, *, format=None, blend="replace", exposure=0.0, depth=None,
-               depth_kind="distance", hash=False, bottom_up=False):
+               depth_kind="distance", hash=False, bottom_up=False, layers=()):
         """Draws what the session holds, into arrays of yours or new ones. Light is not traced.
 
         colour: an array [height, width, 4] of uint8, float16 or float32, written in place; gaps
@@ -210,7 +237,8 @@ class Session:
         (premultiplied by alpha). exposure: stops, of rgba8.
         depth: True, or an array [height, width] of float32. hash: True for the picture's.
         bottom_up: the first row is the picture's lowest.
-        Returns colour; where depth or hash is asked for, Picture(colour, depth, hash).
+        layers: names of channels (docs/formats.md, "Pictures out"), "R" or "tau".
+        Returns colour; where depth, hash or layers are asked for, a Picture.
         """
         mode = _choice("blend", blend, _BLENDS)
         width, height = self.size
@@ -226,13 +254,15 @@ class Session:
             depth = np.empty((height, width), np.float32)
         elif depth is False:
             depth = None
+        planes = {str(name): np.empty((height, width), np.float32) for name in layers}
         bits = self._core.render(colour, chosen, mode, exposure, depth,
-                                 _choice("depth_kind", depth_kind, _DEPTHS), hash, bottom_up)
+                                 _choice("depth_kind", depth_kind, _DEPTHS), hash, bottom_up,
+                                 list(planes.items()))
         for line in self._core.take_lines():
             warnings.warn(line, PictureWarning, stacklevel=2)
-        if depth is None and not hash:
+        if depth is None and not hash and not planes:
             return colour
-        return Picture(colour, depth, None if bits is None else f"{bits:016x}")
+        return Picture(colour, depth, None if bits is None else f"{bits:016x}", planes or None)
 
     @staticmethod
     def _format_of(colour, name):
