@@ -53,6 +53,13 @@ inline bool is_room(const void* place, std::uint32_t size) {
     return place != nullptr && size >= sizeof size && size <= 0xffffu;
 }
 
+/// Bytes of a struct of `size` that are members of T: whole ones, as no version of a struct ends
+/// within a pointer. Every version has the alignment of the first.
+template <class T>
+std::size_t known_bytes(std::size_t size) {
+    return size < sizeof(T) ? size - size % alignof(T) : sizeof(T);
+}
+
 /// The part of a caller's struct that this library knows; the rest stays 0. False: null, or not
 /// marked.
 template <class T>
@@ -60,7 +67,7 @@ bool take(const T* given, T& own) {
     own = T{};
     const std::size_t size = given == nullptr ? 0 : marked_size(given->struct_size);
     if (size < sizeof(std::uint32_t)) return false;
-    std::memcpy(static_cast<void*>(&own), given, size < sizeof(T) ? size : sizeof(T));
+    std::memcpy(static_cast<void*>(&own), given, known_bytes<T>(size));
     return true;
 }
 
@@ -76,7 +83,7 @@ bool take_element(const T* first, std::size_t i, T& own) {
     const unsigned char* at = reinterpret_cast<const unsigned char*>(first) + i * step;
     std::memcpy(&size, at, sizeof size);
     if (size != mark) return false;
-    std::memcpy(static_cast<void*>(&own), at, step < sizeof(T) ? step : sizeof(T));
+    std::memcpy(static_cast<void*>(&own), at, known_bytes<T>(step));
     return true;
 }
 
@@ -91,7 +98,7 @@ Status give(T own, T* to, const char* name) {
     const std::size_t size = to == nullptr ? 0 : marked_size(to->struct_size);
     if (size < sizeof(std::uint32_t)) return no_struct(name);
     own.struct_size = to->struct_size;
-    std::memcpy(static_cast<void*>(to), &own, size < sizeof(T) ? size : sizeof(T));
+    std::memcpy(static_cast<void*>(to), &own, known_bytes<T>(size));
     return Status::ok();
 }
 

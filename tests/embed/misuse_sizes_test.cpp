@@ -3,6 +3,7 @@
 // their structs, where they cannot be meant; misuse_worlds_test.cpp has the other calls.
 // in: tables of wrong values -> out: one line each, and everything as it was.
 // docs/embedding.md
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -320,5 +321,18 @@ TEST_CASE("misuse: work, costs and the governor's own numbers") {
         pileus_governor given = governor;
         given.own_times[i] = i % 2 == 0 ? kNone : -1;
         r.refused(pileus_session_govern(r.s, &given, 1, &work, r.e), "governor.own_times: ");
+    }
+}
+
+TEST_CASE("misuse: a struct that ends within a pointer has nothing of it") {
+    Refusals r;
+    std::vector<float> depths(24 * 14, -7.0f);
+    const std::vector<float> before = depths;
+    for (const std::size_t cut : {1, 4, 7}) {
+        auto frame = cleared<pileus_frame>();
+        frame.depth = depths.data();
+        frame.struct_size = marked(offsetof(pileus_frame, depth) + cut);
+        CHECK(pileus_session_render(r.s, &frame, r.e) == PILEUS_OK);
+        CHECK(depths == before);
     }
 }
