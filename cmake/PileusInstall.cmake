@@ -11,16 +11,21 @@ set(objects $<TARGET_OBJECTS:pileus_objects> $<TARGET_OBJECTS:pileus_api> $<TARG
 add_library(pileus_static STATIC ${objects})
 set(libraries pileus_static)
 set(PILEUS_HAS_SHARED FALSE)
-# A foreign machine's programs are static, and sanitizers belong to programs.
-if(PILEUS_SHARED AND NOT CMAKE_CROSSCOMPILING AND NOT PILEUS_SANITIZE)
+# A foreign machine's programs are static, but for Windows, and sanitizers belong to programs.
+if(PILEUS_SHARED AND (WIN32 OR NOT CMAKE_CROSSCOMPILING) AND NOT PILEUS_SANITIZE)
     # Before 1.0 a minor version may change what programs are linked with.
     set(PILEUS_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     add_library(pileus_shared SHARED ${objects})
     target_link_libraries(pileus_shared PRIVATE ${PILEUS_LINK_LIBRARIES})
-    target_link_options(pileus_shared PRIVATE -Wl,--no-undefined -Wl,--gc-sections
-        -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/pileus.map)
-    set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PILEUS_SOVERSION}
-        LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/pileus.map")
+    target_link_options(pileus_shared PRIVATE -Wl,--no-undefined -Wl,--gc-sections)
+    if(WIN32)
+        # pileus.dll, libpileus.dll.a; what it shows the header says.
+        set_target_properties(pileus_shared PROPERTIES PREFIX "")
+    else()
+        target_link_options(pileus_shared PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/pileus.map)
+        set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PILEUS_SOVERSION}
+            LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/pileus.map")
+    endif()
     list(APPEND libraries pileus_shared)
     set(PILEUS_HAS_SHARED TRUE)
 endif()
@@ -92,7 +97,8 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/pileus.pc.in" "${PROJECT_BINARY_DIR}
 install(TARGETS pileus_static EXPORT pileusStatic COMPONENT dev)
 install(EXPORT pileusStatic NAMESPACE pileus:: DESTINATION "${package}" COMPONENT dev)
 if(PILEUS_HAS_SHARED)
-    install(TARGETS pileus_shared EXPORT pileusShared LIBRARY COMPONENT library NAMELINK_COMPONENT dev)
+    install(TARGETS pileus_shared EXPORT pileusShared RUNTIME COMPONENT library ARCHIVE COMPONENT dev
+        LIBRARY COMPONENT library NAMELINK_COMPONENT dev)
     install(EXPORT pileusShared NAMESPACE pileus:: DESTINATION "${package}" COMPONENT dev)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pileus" TYPE INCLUDE COMPONENT dev)

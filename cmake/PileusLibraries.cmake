@@ -134,8 +134,8 @@ if(PILEUS_THREADS)
         list(APPEND PILEUS_LINK_LIBRARIES Threads::Threads)
     endif()
 endif()
-# One file is compiled with it. The thread sanitizer does not know how it waits.
-if(NOT PILEUS_WITH_THREADS OR PILEUS_SANITIZE MATCHES thread)
+# One file is compiled with it. The thread sanitizer does not know how it waits; Windows has other calls.
+if(NOT PILEUS_WITH_THREADS OR WIN32 OR PILEUS_SANITIZE MATCHES thread)
     set(PILEUS_OPENMP OFF)
 endif()
 set(PILEUS_OPENMP_FLAGS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Toolchain: a foreign machine by Debian's cross compiler; programs run through qemu-user.
+# Toolchain: a foreign machine by Debian's cross compiler; programs run through qemu-user, those of Windows by Wine.
 # in: PILEUS_TARGET, a row below -> out: a cross build on any host
 # docs/determinism.md, "How it is checked"; presets of the same names; tools/check-isas
 
@@ -14,7 +14,8 @@ set(rows
     "s390x s390x-linux-gnu s390x qemu-s390x"
     "mips mips-linux-gnu mips qemu-mips"
     "mipsel mipsel-linux-gnu mipsel qemu-mipsel"
-    "i386 i686-linux-gnu i686 qemu-i386")
+    "i386 i686-linux-gnu i686 qemu-i386"
+    "mingw x86_64-w64-mingw32 AMD64 /usr/lib/wine/wine64")
 # Trial compilations read this file too.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PILEUS_TARGET)
 set(CMAKE_SYSTEM_NAME Linux)
@@ -31,6 +32,13 @@ if(NOT triplet)
     message(FATAL_ERROR "PILEUS_TARGET: unknown, \"${PILEUS_TARGET}\", allowed: see ${CMAKE_CURRENT_LIST_FILE}")
 endif()
 set(CMAKE_CXX_COMPILER ${triplet}-g++)
+if(triplet MATCHES "mingw")
+    # Windows, docs/windows.md: with POSIX threads, which std::thread needs.
+    set(CMAKE_SYSTEM_NAME Windows)
+    set(CMAKE_CXX_COMPILER ${triplet}-g++-posix)
+    set(CMAKE_RC_COMPILER ${triplet}-windres)
+    set(CMAKE_SHARED_LINKER_FLAGS_INIT -static)
+endif()
 set(CMAKE_FIND_ROOT_PATH /usr/${triplet})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)

@@ -59,7 +59,7 @@ FileResult replace_file(const char* path, const void* data, std::size_t bytes);
 FileResult check_replaceable(const char* path);
 
 // Which file a path leads to, so that two names of one file are seen to be one: stat(2),
-// readlink(2).
+// readlink(2); GetFileInformationByHandle.
 
 /// What tells one file from another, whatever they are called. A file that is not there yet is told
 /// by the folder in which it would be made, and its name.
@@ -80,7 +80,7 @@ FileResult follow_links(const char* path, std::string& target);
 FileResult identify_file(const char* path, FileIdentity& identity);
 
 // A file that nobody sees until it is whole, and that can still give way to the older one: open(2)
-// O_TMPFILE, linkat(2), renameat2(2).
+// O_TMPFILE, linkat(2), renameat2(2); ReplaceFileW.
 
 /// The steps are begin, write, publish, keep; a file that was not kept is taken back by its owner,
 /// the folders made for it and the older one of its name included, if the file system lets two
@@ -112,9 +112,10 @@ public:
 
 private:
     void make_folders(const std::string& path);
+    void hide_beside(const std::string& path, int process);
+    bool next_hidden_name(int& attempt);
     FileResult open_hidden();
     FileResult name_hidden();
-    void next_hidden_name(int attempt);
 
     std::string target_, hidden_;
     std::string folders_;         ///< the innermost folder of the path as given

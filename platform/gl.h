@@ -3,6 +3,7 @@
 // in: a library's way to look up functions -> out: function pointers; no OpenGL header is needed.
 // docs/collectors.md, "Display".
 #pragma once
+#include <cstddef>
 
 namespace pileus {
 
@@ -33,7 +34,7 @@ namespace pileus {
     X(void, BindVertexArray, (unsigned))                                                      \
     X(void, GenBuffers, (int, unsigned*))                                                     \
     X(void, BindBuffer, (unsigned, unsigned))                                                 \
-    X(void, BufferData, (unsigned, long, const void*, unsigned))                              \
+    X(void, BufferData, (unsigned, std::ptrdiff_t, const void*, unsigned))                    \
     X(void, VertexAttribPointer, (unsigned, int, unsigned, unsigned char, int, const void*))  \
     X(void, EnableVertexAttribArray, (unsigned))                                              \
     X(void, VertexAttribDivisor, (unsigned, unsigned))                                        \

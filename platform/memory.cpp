@@ -2,8 +2,6 @@
 // See memory.h.
 #include "platform/memory.h"
 
-#include <cstdlib>
-
 namespace pileus {
 namespace {
 
@@ -26,7 +24,7 @@ void* take_memory(std::size_t bytes, const Allocator*& from) {
 #ifdef PILEUS_FLIGHT
     return nullptr;  // has no memory but its block
 #else
-    return std::aligned_alloc(kAlignment, bytes);
+    return take_aligned(kAlignment, bytes);
 #endif
 }
 
@@ -34,7 +32,7 @@ void give_memory(void* memory, const Allocator* from) {
     if (memory == nullptr) return;
     if (from != nullptr) return from->release(from->user, memory);
 #ifndef PILEUS_FLIGHT
-    std::free(memory);
+    give_aligned(memory);
 #endif
 }
 

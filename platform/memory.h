@@ -55,6 +55,10 @@ private:
 void* take_memory(std::size_t bytes, const Allocator*& from);
 void give_memory(void* memory, const Allocator* from);
 
+// The C runtime's; null where there is none left.
+void* take_aligned(std::size_t alignment, std::size_t bytes);
+void give_aligned(void* memory);
+
 /// Of memory that stays the caller's: given back to it, nothing happens.
 extern const Allocator kCallersMemory;
 

@@ -1,88 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// New files through POSIX and Linux calls.
+// What new files have in common on all systems: folders, hidden names, bytes, and taking all back.
 // in: paths and bytes -> out: see file.h.
-// open(2) O_TMPFILE, linkat(2), renameat2(2); docs/architecture.md, floor 0.
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
+// docs/architecture.md, floor 0.
 #include <cerrno>
-#include <cstdio>
 
-#include "platform/file.h"
+#include "platform/file_calls.h"
+#include "platform/path.h"
 
 namespace pileus {
 
 namespace {
-
-constexpr std::size_t kPiece = std::size_t{1} << 30;  // below every kernel's limit for one call
 constexpr int kAttempts = 100;
-
-FileResult system_fault() { return {FileFault::kSystem, errno}; }
-
-FileResult write_all(int descriptor, const char* data, std::size_t bytes) {
-    while (bytes > 0) {
-        const ssize_t written = ::write(descriptor, data, bytes < kPiece ? bytes : kPiece);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_fault();
-        data += written;
-        bytes -= std::size_t(written);
-    }
-    return {};
 }
-
-/// A file without a name in that folder; -1 where the machine or its file system has none.
-int open_unnamed(const std::string& folder) {
-#ifdef O_TMPFILE
-    // Its name is given through /proc, which may be missing.
-    if (::access("/proc/self/fd", X_OK) != 0) return -1;
-    return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-#else
-    (void)folder;
-    return -1;
-#endif
-}
-
-/// Lets two names change places; errno is EINVAL where nobody knows how to.
-bool exchange(const char* a, const char* b) {
-#ifdef RENAME_EXCHANGE
-    return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) == 0;
-#else
-    (void)a, (void)b;
-    errno = EINVAL;
-    return false;
-#endif
-}
-
-/// Gives a file without bytes the owner and the permissions of the one that it will replace. A
-/// file system without them, or an owner that is not ours to give, is no fault.
-void keep_owner(int descriptor, const struct stat& older) {
-    struct stat now;
-    if (::fstat(descriptor, &now) != 0) return;
-    if (now.st_uid != older.st_uid || now.st_gid != older.st_gid)
-        (void)!::fchown(descriptor, older.st_uid, older.st_gid);
-    (void)!::fchmod(descriptor, older.st_mode & 0777);
-}
-
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    return slash == std::string::npos ? "." : path.substr(0, slash > 0 ? slash : 1);
-}
-
-}  // namespace
 
 NewFile::~NewFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (published_ && exchanged_) (void)!::rename(hidden_.c_str(), target_.c_str());
-    if (published_ && !exchanged_) ::unlink(target_.c_str());
-    if (!published_ && named_) ::unlink(hidden_.c_str());
+    if (descriptor_ >= 0) close_file(descriptor_);
+    if (published_ && exchanged_) (void)move_file(hidden_.c_str(), target_.c_str());
+    if (published_ && !exchanged_) remove_file(target_.c_str());
+    if (!published_ && named_) remove_file(hidden_.c_str());
 
     // Take back the folders that were made, the innermost first; one in use stays.
     while (first_made_ > 0 && folders_.size() >= first_made_) {
-        (void)!::rmdir(folders_.c_str());
-        const std::size_t slash = folders_.rfind('/');
-        folders_.resize(slash == std::string::npos ? 0 : slash);
+        remove_folder(folders_.c_str());
+        const std::size_t length = folder_length(folders_);
+        folders_.resize(length > 0 ? length - 1 : 0);
     }
 }
 
@@ -90,72 +31,49 @@ NewFile::~NewFile() {
 void NewFile::make_folders(const std::string& path) {
     for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1)) {
         folders_ = path.substr(0, at);
-        if (::mkdir(folders_.c_str(), 0777) == 0 && first_made_ == 0) first_made_ = at;
+        if (make_folder(folders_.c_str()) && first_made_ == 0) first_made_ = at;
     }
+}
+
+void NewFile::hide_beside(const std::string& path, int process) {
+    const std::size_t length = folder_length(path);
+    hidden_ = length > 0 ? path.substr(0, length) : "./";
+    hidden_ += ".pileus-" + std::to_string(process) + "-00.tmp";
 }
 
 /// Changes the last characters of the hidden name in place.
-void NewFile::next_hidden_name(int attempt) {
+bool NewFile::next_hidden_name(int& attempt) {
+    if (attempt >= kAttempts) return false;
     hidden_[hidden_.size() - 6] = char('0' + attempt / 10);
     hidden_[hidden_.size() - 5] = char('0' + attempt % 10);
-}
-
-FileResult NewFile::begin(const char* path) {
-    // Replace what a link leads to, so that the link itself survives the renaming.
-    FileResult result = follow_links(path, target_);
-    if (!result) return result;
-    make_folders(target_);
-    struct stat facts;
-    // Never rename over something that is not a plain file: that would destroy a device node.
-    const bool older = ::stat(target_.c_str(), &facts) == 0;
-    if (older && S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
-    device_ = older && !S_ISREG(facts.st_mode);
-    if (device_) {
-        descriptor_ = ::open(path, O_WRONLY | O_CLOEXEC);
-        return descriptor_ >= 0 ? FileResult{} : system_fault();
-    }
-    const std::string folder = folder_of(target_);
-    hidden_ = folder + "/.pileus-" + std::to_string(::getpid()) + "-00.tmp";
-    descriptor_ = open_unnamed(folder);
-    if (descriptor_ < 0) result = open_hidden();
-    if (result && older) keep_owner(descriptor_, facts);
-    return result;
+    ++attempt;
+    return true;
 }
 
 FileResult NewFile::open_hidden() {
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        next_hidden_name(attempt);
-        const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-        descriptor_ = ::open(hidden_.c_str(), flags, 0666);
+    for (int attempt = 0; !named_ && next_hidden_name(attempt);) {
+        descriptor_ = create_file(hidden_.c_str());
         named_ = descriptor_ >= 0;
-        if (named_ || errno != EEXIST) break;
-    }
-    return named_ ? FileResult{} : system_fault();
-}
-
-/// Gives a file without a name its hidden one.
-FileResult NewFile::name_hidden() {
-    char from[40];
-    std::snprintf(from, sizeof from, "/proc/self/fd/%d", descriptor_);
-    for (int attempt = 0; attempt < kAttempts && !named_; ++attempt) {
-        next_hidden_name(attempt);
-        const int done = ::linkat(AT_FDCWD, from, AT_FDCWD, hidden_.c_str(), AT_SYMLINK_FOLLOW);
-        named_ = done == 0;
         if (!named_ && errno != EEXIST) break;
     }
     return named_ ? FileResult{} : system_fault();
 }
 
 FileResult NewFile::write(const void* data, std::size_t bytes) {
-    FileResult result = write_all(descriptor_, static_cast<const char*>(data), bytes);
-    return result ? flush() : result;
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const std::int64_t done = write_some(descriptor_, from, bytes);
+        if (done < 0) return system_fault();
+        from += done;
+        bytes -= std::size_t(done);
+    }
+    return flush();
 }
 
 FileResult NewFile::write_at(std::uint64_t at, const void* data, std::size_t bytes) {
     const char* from = static_cast<const char*>(data);
     while (bytes > 0) {
-        const ssize_t done = ::pwrite(descriptor_, from, bytes, off_t(at));
-        if (done < 0 && errno == EINTR) continue;
+        const std::int64_t done = write_some_at(descriptor_, at, from, bytes);
         if (done <= 0) return system_fault();
         from += done;
         at += std::uint64_t(done);
@@ -164,32 +82,8 @@ FileResult NewFile::write_at(std::uint64_t at, const void* data, std::size_t byt
     return {};
 }
 
-FileResult NewFile::flush() {
-    // Bring the bytes to the disk before the name, so that a power cut leaves no half file.
-    if (!device_ && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
-        return system_fault();
-    return {};
-}
-
-FileResult NewFile::publish() {
-    FileResult result;
-    if (!device_ && !named_) result = name_hidden();
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    if (::close(descriptor) != 0 && result) result = system_fault();
-    if (!result || device_) return result;
-    // Without an older file, or where names cannot change places, the new one simply takes its
-    // name.
-    exchanged_ = exchange(hidden_.c_str(), target_.c_str());
-    const bool plain = errno == ENOENT || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
-    if (!exchanged_ && (!plain || ::rename(hidden_.c_str(), target_.c_str()) != 0))
-        return system_fault();
-    published_ = true;
-    return {};
-}
-
 void NewFile::keep() {
-    if (exchanged_) ::unlink(hidden_.c_str());
+    if (exchanged_) remove_file(hidden_.c_str());
     published_ = exchanged_ = named_ = false;
     first_made_ = 0;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs another program to its end and tells what it cost; notices Ctrl-C without global state.
 // in: a command line -> out: exit status, its last words, wall time, CPU time, memory.
-// posix_spawn(3), wait4(2), sigpending(2); docs/study.md, "Runs"
+// docs/study.md, "Runs"
 #pragma once
-#include <signal.h>
-
 #include <string>
 #include <vector>
+
+#include "platform/signal_mask.h"
 
 namespace pileus {
 
@@ -19,8 +19,9 @@ struct ProcessResult {
     long long peak_bytes = 0;      ///< highest resident size
 };
 
-/// Holds back SIGINT, SIGTERM and SIGHUP while it lives, so that work can end in order; when it
-/// goes, a signal that came ends the program as if it came then. One at a time, on one thread.
+/// Holds back SIGINT, SIGTERM and SIGHUP, on Windows what the console's handler is told, while it
+/// lives, so that work can end in order; when it goes, a signal that came ends the program as if it
+/// came then. One at a time, on one thread.
 class InterruptHold {
 public:
     InterruptHold();
@@ -31,10 +32,10 @@ public:
     /// Whether one of them has come.
     bool pending() const;
     /// The signals as they were before; for programs started meanwhile.
-    const sigset_t& before() const { return before_; }
+    const SignalMask& before() const { return before_; }
 
 private:
-    sigset_t before_, held_;
+    SignalMask before_;  // of POSIX
 };
 
 /// Runs `words[0]` with the words as its arguments to its end, in this environment but for
@@ -43,14 +44,19 @@ private:
 ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold,
                           const std::vector<std::string>& hidden = {});
 
+/// For the start of a program of ours, before it has threads: the words of its command line as
+/// UTF-8, `count` of them. A reader of its output that goes away is a failed write from now on.
+char** begin_program(int& count, char** words);
+
 /// The file of the program that runs now; `first_word` (argv[0]) where the system does not tell.
 std::string own_program(const char* first_word);
 
 /// What the processor calls itself; empty where unknown.
 std::string processor_name();
 
-// Whether the user asked this program to end, by Ctrl-C (SIGINT) or SIGTERM: one flag, read between
-// two pieces of work, or the end. docs/program.md, "Interrupting".
+// Whether the user asked this program to end, by Ctrl-C (SIGINT, on Windows Ctrl-Break and a closed
+// window as well) or SIGTERM: one flag, read between two pieces of work, or the end.
+// docs/program.md, "Interrupting".
 
 /// From now on the first of these signals sets the flag, or, where nothing is to be lost, ends the
 /// process at once with the line `last_words` (at most 120 characters) and `exit_status`. A second

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many processors' time the groups that a process is in may take (Linux, cgroups).
-// in: files below /proc and /sys/fs/cgroup -> out: a number of processors, rounded up.
-// cgroups(7); kernel documentation, "Control Group v2", cpu.max; docs/program.md, "Threads"
+// How many processors a process may use, and how much of their time the groups that it is in
+// (Linux, cgroups). in: files below /proc and /sys/fs/cgroup -> out: a number of processors,
+// rounded up. cgroups(7); kernel documentation, "Control Group v2", cpu.max; docs/program.md,
+// "Threads"
 #pragma once
 #include <cstdio>
 #include <string>
 
 namespace pileus {
+
+/// Those that this process may run on, of its group's time, too; 0 where the system does not tell.
+int allowed_processors();
 
 /// The least of what the process's own group and those around it allow, at least 1; 0: no limit.
 /// `root` stands before every path; empty for this machine.

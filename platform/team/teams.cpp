@@ -2,7 +2,6 @@
 // See team.h, teams.h and threads.h: of builds with threads.
 #include "platform/team/teams.h"
 
-#include <sched.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -66,14 +65,8 @@ bool is_forked() {
 }
 
 int hardware_threads() {
-    int count = int(std::thread::hardware_concurrency());
-#ifdef __linux__
-    // Those that this process may run on.
-    cpu_set_t own;
-    if (::sched_getaffinity(0, sizeof own, &own) == 0) count = CPU_COUNT(&own);
-    const int most = group_processors("");
-    if (most > 0 && most < count) count = most;
-#endif
+    const int allowed = allowed_processors();
+    const int count = allowed > 0 ? allowed : int(std::thread::hardware_concurrency());
     return count > 1 ? count : 1;
 }
 

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "platform/path.h"
+
 namespace pileus {
 
 namespace {
@@ -100,8 +102,7 @@ Status write_file(const std::string& path, Span<const char> bytes) {
 }
 
 std::string file_extension(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+    const std::size_t begin = folder_length(path);
     const std::size_t point = path.rfind('.');
     if (point == std::string::npos || point <= begin) return "";
     std::string extension = path.substr(point);

@@ -4,11 +4,12 @@
 // docs/scene.md.
 #include "src/scene/read_scene.h"
 
-#include <filesystem>
 #include <string_view>
 #include <system_error>
 
 #include "platform/fp_mode.h"
+#include "platform/fs_path.h"
+#include "platform/path.h"
 #include "src/base/file.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/key_value.h"
@@ -63,12 +64,12 @@ std::string numbered(std::string file, std::int64_t number) {
 }  // namespace
 
 std::string scene_path(const std::string& directory, const std::string& file) {
-    if (directory.empty() || (!file.empty() && file[0] == '/')) return file;
-    return directory.back() == '/' ? directory + file : directory + "/" + file;
+    if (directory.empty() || is_absolute_path(file)) return file;
+    return folder_length(directory) == directory.size() ? directory + file : directory + "/" + file;
 }
 
 bool is_sequence(const std::string& file) {
-    return file.find('#', file.rfind('/') + 1) != std::string::npos;
+    return file.find('#', folder_length(file)) != std::string::npos;
 }
 
 bool has_sequence(const Scene& scene) {
@@ -187,8 +188,7 @@ Status read_scene_file(const std::string& path, const std::vector<std::string>& 
                        Scene& out) {
     std::string text;
     PILEUS_TRY(read_text(path, text));
-    return read_scene_text(text, path, std::filesystem::path(path).parent_path().string(),
-                           overrides, out);
+    return read_scene_text(text, path, path_text(path_of(path).parent_path()), overrides, out);
 }
 
 }  // namespace pileus

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "src/base/printable.h"
 #include "src/scene/toml/toml_tree.h"
@@ -22,7 +23,7 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24;
 constexpr int kMaxFaults = 10;
 
 std::string plain_name(const std::string& name) {
-    return std::filesystem::path(name).lexically_normal().string();
+    return path_text(path_of(name).lexically_normal());
 }
 
 /// Text without what ends a line in files of other systems.

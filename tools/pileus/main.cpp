@@ -7,13 +7,13 @@
 #endif
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "platform/fp_mode.h"
+#include "platform/process.h"
 #include "platform/team/teams.h"
 #include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
@@ -113,6 +113,8 @@ int run(int count, char** words, const TeamChoice& team) {
     const PoolGuard lent(threads);
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
+    // A slash begins a path, on Windows, too.
+    app.allow_windows_style_options(false);
     app.set_version_flag("--version", "pileus " + version_text());
     app.require_subcommand(1);
     app.footer(help_example("pileus render cloud.toml -o cloud.png"));
@@ -134,6 +136,7 @@ int run(int count, char** words, const TeamChoice& team) {
 
 int main(int count, char** words) {
     std::set_new_handler(pileus::on_no_memory);
+    words = pileus::begin_program(count, words);
     // May begin the program anew, as if it had not begun.
     const pileus::TeamChoice team = pileus::start_team(words);
 #ifdef M_MMAP_THRESHOLD
@@ -142,8 +145,6 @@ int main(int count, char** words) {
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
     (void)std::atexit(pileus::on_exit);
-    // A reader that went away is a failed write like any other: files of the frame are taken back.
-    (void)std::signal(SIGPIPE, SIG_IGN);
     int status = int(pileus::Code::kLimit);
     // Whatever escapes is as final as a lack of memory.
     try {

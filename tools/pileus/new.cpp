@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/new_scene.h"
@@ -32,7 +33,7 @@ Status run_new(const NewArguments& arguments) {
     const bool printed = name == "-";
     if (printed && arguments.force)
         return Status::bad_input("--force: nothing is written over, allowed: with -o FILE.toml");
-    const std::filesystem::path path = printed ? "" : name;
+    const std::filesystem::path path = path_of(printed ? "" : name);
     std::string text;
     if (!printed) {
         PILEUS_TRY(check_file_name(name));
@@ -48,10 +49,10 @@ Status run_new(const NewArguments& arguments) {
             return Status::bad_input(name + ": is there, allowed: another name, or --force");
         PILEUS_TRY(can_write_file(name));
     }
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    const std::string folder = path.has_parent_path() ? path_text(path.parent_path()) : ".";
     const std::string picture = printed
                                     ? (is_new_scene_file(arguments.type) ? "scene" : arguments.type)
-                                    : path.stem().string();
+                                    : path_text(path.stem());
     PILEUS_TRY(new_scene(arguments.type, folder, picture, text));
     if (printed) return print(text);
     PILEUS_TRY(write_file(name, {text.data(), text.size()}));

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "src/base/printable.h"
 #include "src/io/volumes/volume_file.h"
@@ -267,9 +268,9 @@ Status scene_of_file(const std::string& file, const std::string& folder, const s
     keys.push_back({"sky.radiance", "[0.03, 0.06, 0.13]"});
     std::error_code ignored;
     const auto way =
-        std::filesystem::proximate(std::filesystem::absolute(file, ignored),
-                                   std::filesystem::absolute(folder, ignored), ignored);
-    keys.push_back({"medium.N.density", toml_text(node_of(way.string()))});
+        std::filesystem::proximate(std::filesystem::absolute(path_of(file), ignored),
+                                   std::filesystem::absolute(path_of(folder), ignored), ignored);
+    keys.push_back({"medium.N.density", toml_text(node_of(path_text(way)))});
     if (format != nullptr && !format->is_weather && !format->is_particles)
         keys.push_back({"medium.N.y_up", "false"});
     if (!volume.knows_bounds)

@@ -9,6 +9,8 @@
 #include <limits>
 #include <map>
 
+#include "platform/fs_path.h"
+#include "platform/path.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "src/methods/registry.h"
@@ -72,22 +74,22 @@ std::vector<std::string> words_of(const std::string& text) {
 /// Where names in the scene start.
 Status find_directory(const Origin& origin, const std::optional<std::string>& folder,
                       PictureScene& out) {
-    const fs::path own = fs::path(out.file).parent_path();
+    const fs::path own = path_of(out.file).parent_path();
     if (folder) {
         std::error_code ignored;
-        if (!fs::is_directory(fs::path(*folder), ignored))
+        if (!fs::is_directory(path_of(*folder), ignored))
             return Status::bad_input("--folder: no such folder, " + quote_text(*folder) +
                                      ", allowed: the folder of the scene that made the picture");
         out.directory = *folder;
         return Status::ok();
     }
-    out.directory = own.string();
+    out.directory = path_text(own);
     if (!origin.has("folder")) return Status::ok();
     const std::string way = origin.text("folder");
-    if (way.empty() || way[0] == '/' || !check_file_name(way))
+    if (way.empty() || is_absolute_path(way) || !check_file_name(way))
         return Status::bad_input(origin.where("folder") + ": no relative folder, " +
                                  quote_text(way) + ", allowed: such as \"..\"; --folder wins");
-    out.directory = (own / way).lexically_normal().string();
+    out.directory = path_text((own / path_of(way)).lexically_normal());
     return Status::ok();
 }
 
@@ -130,7 +132,7 @@ bool remembers(const PictureScene& picture, const Scene& scene, bool& clocked) {
 
 bool is_there(const std::string& path) {
     std::error_code ignored;
-    return fs::exists(fs::path(path), ignored);
+    return fs::exists(path_of(path), ignored);
 }
 
 }  // namespace
@@ -233,18 +235,19 @@ std::string scene_folder_from(const std::string& scene_directory, const std::str
         const fs::path normal = path.lexically_normal();
         return normal.empty() ? fs::path(".") : normal;
     };
-    const fs::path scene = plain(scene_directory), own = plain(fs::path(picture).parent_path());
+    const fs::path scene = plain(path_of(scene_directory)),
+                   own = plain(path_of(picture).parent_path());
     if (scene.is_absolute() != own.is_absolute()) return "";
     // From a folder above the working directory only the disk knows the way down.
     for (auto step = std::mismatch(own.begin(), own.end(), scene.begin(), scene.end()).first;
          step != own.end(); ++step)
         if (*step == "..") return "";
     const fs::path way = scene.lexically_relative(own);
-    if (way.empty() || !scene.is_absolute()) return way.generic_string();
+    if (way.empty() || !scene.is_absolute()) return path_text(way);
     // From one absolute folder to another: only up, or only down, as any copy of both would have.
     bool up = false, down = false;
     for (const fs::path& step : way) (step == ".." ? up : down) = true;
-    return up && down ? "" : way.generic_string();
+    return up && down ? "" : path_text(way);
 }
 
 }  // namespace pileus

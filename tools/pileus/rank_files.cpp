@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "src/base/printable.h"
 #include "tools/pileus/ranks.h"
@@ -21,10 +22,10 @@ constexpr std::uint64_t kPiece = std::uint64_t{1} << 24;
 /// From the root on, step by step as it was written: a step back from a link leads elsewhere.
 std::string whole_path(const std::string& path) {
     std::error_code error;
-    return fs::absolute(path, error).generic_string();
+    return path_text(fs::absolute(path_of(path), error));
 }
 std::string normal_path(const std::string& path) {
-    return fs::path(whole_path(path)).lexically_normal().generic_string();
+    return path_text(path_of(whole_path(path)).lexically_normal());
 }
 
 void send_number(std::uint64_t& value) {
@@ -106,7 +107,7 @@ void add_stage_option(CLI::App& command, std::optional<std::string>& folder) {
 
 StagedFiles::~StagedFiles() {
     std::error_code error;
-    if (!own_.empty()) fs::remove_all(own_, error);
+    if (!own_.empty()) fs::remove_all(path_of(own_), error);
 }
 
 Status StagedFiles::make_folder(const std::string& folder) {
@@ -115,7 +116,7 @@ Status StagedFiles::make_folder(const std::string& folder) {
         const std::string name = normal_path(
             folder + "/pileus-rank-" + std::to_string(ranks().rank) + "-" + std::to_string(i));
         // Another run may have its copies here.
-        if (!fs::create_directory(name, error)) {
+        if (!fs::create_directory(path_of(name), error)) {
             if (error) break;
             continue;
         }
@@ -133,7 +134,7 @@ std::string StagedFiles::copy_of(const std::string& path) const { return own_ + 
 void StagedFiles::make_steps(const std::string& path) const {
     std::error_code error;
     fs::path way;
-    for (const fs::path& step : fs::path(path).parent_path()) {
+    for (const fs::path& step : path_of(path).parent_path()) {
         way /= step;
         if (step != "..") fs::create_directory(way, error);
     }

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "src/io/volumes/weather_file.h"
@@ -60,8 +61,8 @@ Status check_names(const std::vector<std::string>& all, bool numbered, int first
             const std::string path = frame_path(name, frame, numbered);
             // Names of files that are not there yet clash in all frames or in none.
             std::error_code ignored;
-            const bool there = std::filesystem::exists(
-                std::filesystem::symlink_status(std::filesystem::path(path), ignored));
+            const bool there =
+                std::filesystem::exists(std::filesystem::symlink_status(path_of(path), ignored));
             if (frame == first_frame || there) add_fault(check.writes(path), faults);
         }
     return faults;

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "platform/clock.h"
+#include "platform/fs_path.h"
 #include "platform/process.h"
 #include "platform/threads.h"
 #include "src/base/file.h"
@@ -39,7 +40,7 @@ struct StudyArguments {
 };
 
 Status read_options(const StudyArguments& arguments, StudyOptions& options) {
-    const std::string stem = std::filesystem::path(arguments.file).stem().string();
+    const std::string stem = path_text(path_of(arguments.file).stem());
     options.folder = arguments.folder.value_or(stem + ".study");
     options.references = arguments.references.value_or("");
     options.program = arguments.program.value_or(own_program(nullptr));

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/path.h"
 #include "src/base/file.h"
 #include "src/scene/read_scene.h"
 
@@ -46,8 +47,7 @@ void add_buffers(const std::string& path, std::vector<std::string>& files) {
     };
     const PlainJson json = PlainJson::parse(text.data(), text.data() + text.size(), wanted, false);
     if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return;
-    const std::size_t slash = path.rfind('/');
-    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    const std::string folder = path.substr(0, folder_length(path));
     for (const PlainJson& buffer : json["buffers"]) {
         if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
         const std::string uri = buffer["uri"].get<std::string>();

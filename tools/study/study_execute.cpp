@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <system_error>
+
+#include "platform/file_calls.h"
 
 namespace pileus {
 
@@ -47,15 +48,15 @@ Status run_once(const StudyOptions& options, const StudyRun& run, const Interrup
     // A picture of a run that was cut short is not the one that was asked for.
     if (result.interrupted || hold.pending()) {
         stopped = true;
-        (void)std::remove(run.image.c_str());
-        (void)std::remove(report.c_str());
+        remove_file(run.image.c_str());
+        remove_file(report.c_str());
         return Status::ok();
     }
     record.wall_s = result.wall_s;
     record.cpu_s = result.cpu_s;
     record.peak_bytes = double(result.peak_bytes);
     const bool read = result.exit_status == 0 && read_report(report, record);
-    (void)std::remove(report.c_str());
+    remove_file(report.c_str());
     if (!read) {
         record.fault = fault_text(result);
         return Status::ok();

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "platform/fp_mode.h"
+#include "platform/fs_path.h"
 #include "src/base/file.h"
 #include "src/scene/read_scene.h"
 #include "tools/study/study_keys.h"
@@ -62,7 +63,7 @@ public:
 
     void read(const Node& root) {
         check_study_table(study_top_table(), root, "", faults_);
-        study_.title = text_of(root, "title", std::filesystem::path(study_.file).stem().string());
+        study_.title = text_of(root, "title", path_text(path_of(study_.file).stem()));
         std::int64_t seeds = study_.seeds;
         take_integer(root, "seeds", 64, seeds);
         study_.seeds = int(seeds);
@@ -324,7 +325,7 @@ Status read_study_file(const std::string& path, Study& out) {
     PILEUS_TRY(read_whole_file(path, kMaxSceneBytes, bytes));
     Study study;
     PILEUS_TRY(read_study_text(std::string(bytes.data(), bytes.size()), path,
-                               std::filesystem::path(path).parent_path().string(), study));
+                               path_text(path_of(path).parent_path()), study));
     PILEUS_TRY(check_scenes(study));
     out = std::move(study);
     return Status::ok();

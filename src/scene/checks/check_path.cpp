@@ -2,9 +2,8 @@
 // Paths of files that a scene reads.
 // in: a text of the scene -> out: a path relative to the scene file, or absolute; faults.
 // docs/scene.md, sections Media and Sky map.
-#include <cstdlib>
-#include <filesystem>
-
+#include "platform/fs_path.h"
+#include "platform/path.h"
 #include "src/scene/checks/check_keys.h"
 
 namespace pileus {
@@ -13,8 +12,8 @@ bool check_path(SceneCheck& check, const Node& node, const char* key, std::strin
     static constexpr std::string_view kVariable = "${PILEUS_DATA_DIR}";
     file = node.text;
     if (std::string_view(file).substr(0, kVariable.size()) == kVariable) {
-        const char* folder = std::getenv("PILEUS_DATA_DIR");
-        if (folder == nullptr || folder[0] == '\0') {
+        const std::string folder = environment_text("PILEUS_DATA_DIR");
+        if (folder.empty()) {
             check.faults.add(node.at, key,
                              "environment variable PILEUS_DATA_DIR is not set, " +
                                  value_text(node) +
@@ -23,8 +22,8 @@ bool check_path(SceneCheck& check, const Node& node, const char* key, std::strin
         }
         // The variable counts from the working directory, not from the scene's folder.
         std::error_code error;
-        const std::filesystem::path whole = std::filesystem::absolute(folder, error);
-        file = (error ? std::string(folder) : whole.string()) + node.text.substr(kVariable.size());
+        const std::filesystem::path whole = std::filesystem::absolute(path_of(folder), error);
+        file = (error ? folder : path_text(whole)) + node.text.substr(kVariable.size());
     }
     if (file.find("${") != std::string::npos) {
         check.faults.add(

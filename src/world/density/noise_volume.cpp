@@ -4,9 +4,9 @@
 #include "src/world/density/noise_volume.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
+#include "platform/path.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/base/file.h"
@@ -147,16 +147,18 @@ bool keep_noise(const NoiseParams& params, const std::string& path,
 
 /// A folder out of an environment variable; relative ones are no folder for a cache.
 std::string folder_in(const char* variable, const char* behind) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && value[0] == '/' ? std::string(value) + behind : std::string();
+    const std::string value = environment_text(variable);
+    return is_absolute_path(value) ? value + behind : std::string();
 }
 
 }  // namespace
 
 std::string cache_folder() {
-    const std::string own = folder_in("PILEUS_CACHE_DIR", "");
-    const std::string xdg = own.empty() ? folder_in("XDG_CACHE_HOME", "/pileus") : own;
-    return xdg.empty() ? folder_in("HOME", "/.cache/pileus") : xdg;
+    std::string folder = folder_in("PILEUS_CACHE_DIR", "");
+    if (folder.empty()) folder = folder_in("XDG_CACHE_HOME", "/pileus");
+    if (folder.empty()) folder = folder_in("HOME", "/.cache/pileus");
+    // Windows has none of these.
+    return folder.empty() ? folder_in("LOCALAPPDATA", "/pileus") : folder;
 }
 
 std::string noise_file_name(const NoiseParams& params) {

@@ -47,7 +47,13 @@ bool flush_to_zero() {
 #endif
 }
 
-bool unmask_traps() { return ::feenableexcept(FE_ALL_EXCEPT) != -1; }
+bool unmask_traps() {
+#ifdef _WIN32
+    return false;
+#else
+    return ::feenableexcept(FE_ALL_EXCEPT) != -1;
+#endif
+}
 
 /// The x87 registers of old round to floats instead of their 64 bits.
 bool cut_x87() {

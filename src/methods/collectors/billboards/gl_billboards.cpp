@@ -94,7 +94,7 @@ void set_view(const GlApi& gl, unsigned program, const CameraParams& c, bool sol
 
 /// Empties the picture and draws all spheres into it.
 void draw(const GlApi& gl, const CameraParams& c, const Buffer<float>& instances) {
-    gl.BufferData(kArrayBuffer, long(instances.bytes()), instances.data(), kStreamDraw);
+    gl.BufferData(kArrayBuffer, std::ptrdiff_t(instances.bytes()), instances.data(), kStreamDraw);
     for (unsigned i = 0; i < unsigned(kVectors); ++i) {
         gl.EnableVertexAttribArray(i);
         gl.VertexAttribPointer(

@@ -2,6 +2,10 @@
 // See processors.h.
 #include "platform/team/processors.h"
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 #include <cstdlib>
 #include <sstream>
 #include <vector>
@@ -101,6 +105,16 @@ int limit_of(const std::string& root, const GroupPlace& place, bool is_two) {
 }
 
 }  // namespace
+
+int allowed_processors() {
+#ifdef __linux__
+    cpu_set_t own;
+    const int count = ::sched_getaffinity(0, sizeof own, &own) == 0 ? CPU_COUNT(&own) : 0;
+    return least(count, group_processors(""));
+#else
+    return 0;
+#endif
+}
 
 int group_processors(const std::string& root) {
     GroupPlace one, two;

@@ -17,6 +17,7 @@
 #include <cstring>
 
 #include "platform/clock.h"
+#include "platform/posix/signals.h"
 
 extern char** environ;
 
@@ -62,7 +63,8 @@ int start(const std::vector<std::string>& words, const InterruptHold& hold,
     if (!error) error = posix_spawn_file_actions_adddup2(&files, pipe_[1], 2);
     if (!error)
         error = posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-    if (!error) error = posix_spawnattr_setsigmask(&how, &hold.before());
+    const sigset_t before = signals_of(hold.before());
+    if (!error) error = posix_spawnattr_setsigmask(&how, &before);
     if (!error)
         error = posix_spawn(&child, words[0].c_str(), &files, &how, arguments.data(),
                             environment.data());
@@ -93,12 +95,14 @@ void listen(int descriptor, pid_t child, const InterruptHold& hold, ProcessResul
 }  // namespace
 
 InterruptHold::InterruptHold() {
-    sigemptyset(&held_);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held_, number);
-    (void)::pthread_sigmask(SIG_BLOCK, &held_, &before_);
+    sigset_t held, before;
+    sigemptyset(&held);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, number);
+    (void)::pthread_sigmask(SIG_BLOCK, &held, &before);
+    before_ = mask_of(before);
 }
 
-InterruptHold::~InterruptHold() { (void)::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+InterruptHold::~InterruptHold() { set_signals(before_); }
 
 bool InterruptHold::pending() const {
     sigset_t waiting;
@@ -133,6 +137,11 @@ ProcessResult run_process(const std::vector<std::string>& words, const Interrupt
     }
     ::close(ends[0]);
     return result;
+}
+
+char** begin_program(int&, char** words) {
+    (void)::signal(SIGPIPE, SIG_IGN);
+    return words;
 }
 
 std::string own_program(const char* first_word) {
