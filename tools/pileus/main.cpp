@@ -2,15 +2,16 @@
 // The program: finds the subcommand, runs it, turns its Status into lines and an exit status.
 // in: the command line -> out: results on stdout, faults on stderr, exit 0 to 4.
 // docs/program.md
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+// Known after any header of the C library.
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "platform/fp_mode.h"
 #include "platform/process.h"
