@@ -50,7 +50,8 @@ std::uint64_t noise_packing_bytes(std::uint64_t size);
 // Noise volumes kept on disk between runs, under a digest of everything that shapes them.
 // docs/skies.md, "The cache"; docs/formats.md, "Noise volumes".
 
-/// $PILEUS_CACHE_DIR, else $XDG_CACHE_HOME/pileus, else $HOME/.cache/pileus; empty: none.
+/// $PILEUS_CACHE_DIR, else $XDG_CACHE_HOME/pileus, else $HOME/.cache/pileus, else (Windows)
+/// %LOCALAPPDATA%/pileus; empty: none.
 std::string cache_folder();
 
 /// File name of a volume: its kind, size and 16 hex digits of its parameters and their version.
