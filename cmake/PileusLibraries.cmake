@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: six required sets of headers, thirteen optional libraries.
+# Finds foreign libraries: seven required sets of headers, thirteen optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS, PILEUS_OPENMP_FLAGS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -39,7 +39,8 @@ endif()
 set(missing)
 foreach(row "TOMLPLUSPLUS toml++ toml.h libtomlplusplus-dev" "CLI11 CLI CLI.hpp libcli11-dev"
         "FMT fmt format.h libfmt-dev" "JSON nlohmann json.hpp nlohmann-json3-dev"
-        "GLM glm glm.hpp libglm-dev" "XXHASH . xxhash.h libxxhash-dev")
+        "GLM glm glm.hpp libglm-dev" "XXHASH . xxhash.h libxxhash-dev"
+        "FAST_FLOAT fast_float fast_float.h libfast-float-dev")
     separate_arguments(row)
     pileus_find_headers(${row})
     list(GET row 0 name)

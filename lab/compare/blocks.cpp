@@ -4,7 +4,6 @@
 // docs/crosscheck.md, "File of blocks"
 #include "lab/compare/blocks.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "src/base/number_text.h"
@@ -54,7 +53,7 @@ struct Words {
         if (!skip()) return fault(std::string(what) + ": the file ends before it", "all blocks");
         const std::string text = word();
         const char* last = text.data() + text.size();
-        const auto [stop, error] = std::from_chars(text.data(), last, value);
+        const auto [stop, error] = number_from(text.data(), last, value);
         if (error == std::errc() && stop == last && double(value) >= low && double(value) <= high)
             return Status::ok();
         return fault(std::string(what) + ": \"" + printable_line(text) + "\"",
@@ -87,9 +86,7 @@ Status read_block(Words& in, double& passes, BlockSum* sums) {
 }
 
 void append(double value, char behind, std::string& text) {
-    char digits[40];
-    const auto result = std::to_chars(digits, digits + sizeof digits, value);
-    text.append(digits, result.ptr);
+    text += number_text(value);
     text += behind;
 }
 

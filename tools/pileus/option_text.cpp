@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
+#include "src/base/number_text.h"
 #include "src/scene/keys/key_value.h"
 
 namespace pileus {
@@ -17,7 +16,7 @@ namespace {
 template <class Number>
 bool parse(const std::string& text, Number& value) {
     const char* const end = text.data() + text.size();
-    const std::from_chars_result r = std::from_chars(text.data(), end, value);
+    const std::from_chars_result r = number_from(text.data(), end, value);
     return r.ec == std::errc() && r.ptr == end;
 }
 

@@ -5,13 +5,13 @@
 #include "tools/study/study_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 
 #include "platform/fp_mode.h"
 #include "platform/fs_path.h"
 #include "src/base/file.h"
+#include "src/base/number_text.h"
 #include "src/scene/read_scene.h"
 #include "tools/study/study_keys.h"
 
@@ -293,7 +293,7 @@ bool split_budget(const std::string& text, std::string& kind, double& amount) {
     kind = text.substr(0, equals);
     const char* const begin = text.data() + equals + 1;
     const char* const end = text.data() + text.size();
-    const std::from_chars_result read = std::from_chars(begin, end, amount);
+    const std::from_chars_result read = number_from(begin, end, amount);
     const bool known = kind == "photons" || kind == "samples" || kind == "steps" ||
                        kind == "seconds" || kind == "error";
     return known && read.ec == std::errc() && read.ptr == end && amount > 0 && amount < 1e18;

@@ -7,11 +7,11 @@
 #ifdef PILEUS_WITH_TIFF
 #include <tiffio.h>
 
-#include <charconv>
 #include <cstring>
 #include <limits>
 
 #include "src/base/dynamic_library.h"
+#include "src/base/number_text.h"
 #include "src/base/printable.h"
 #include "src/base/reading_limit.h"
 #endif
@@ -274,7 +274,7 @@ void Reader::mark_holes(HeightGrid& grid) {
     while (begin < text.size && text[begin] == ' ') ++begin;
     for (end = begin; end < text.size && text[end] != 0 && text[end] != ' ';) ++end;
     double value = 0;
-    const std::from_chars_result read = std::from_chars(text.data + begin, text.data + end, value);
+    const auto read = number_from(text.data + begin, text.data + end, value);
     if (begin == end || read.ec != std::errc() || read.ptr != text.data + end) return;
     for (float& h : grid.height.span())
         if (h == float(value)) h = std::numeric_limits<float>::quiet_NaN();

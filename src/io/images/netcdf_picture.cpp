@@ -2,8 +2,7 @@
 // Pictures as NetCDF: each channel a variable on rows and columns, in metres where a map is known.
 // in: an Image -> out: the bytes of a classic file with CF attributes.
 // docs/formats.md, "NetCDF"; CF conventions 1.10
-#include <charconv>
-
+#include "src/base/number_text.h"
 #include "src/io/images/image_file.h"
 #include "src/io/netcdf/netcdf_write.h"
 
@@ -24,7 +23,7 @@ bool extent_of(const Image& image, double (&extent)[4]) {
     const char* end = at + text->size();
     for (double& value : extent) {
         while (at < end && *at == ' ') ++at;
-        const auto read = std::from_chars(at, end, value);
+        const auto read = number_from(at, end, value);
         if (read.ec != std::errc()) return false;
         at = read.ptr;
     }

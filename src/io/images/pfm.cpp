@@ -2,8 +2,7 @@
 // Portable float map: three floats a pixel and nothing else.
 // in: R G B -> out: "PF", size, "-1" (little-endian), rows from the bottom; and back.
 // Debevec, "PFM format"; docs/formats.md
-#include <charconv>
-
+#include "src/base/number_text.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {
@@ -40,7 +39,7 @@ bool next_word(Span<const char> bytes, std::size_t& at, Span<const char>& word) 
 
 template <class Number>
 bool parse(Span<const char> word, Number& value) {
-    const std::from_chars_result r = std::from_chars(word.begin(), word.end(), value);
+    const std::from_chars_result r = number_from(word.begin(), word.end(), value);
     return r.ec == std::errc() && r.ptr == word.end();
 }
 

@@ -4,9 +4,10 @@
 // docs/formats.md
 #include "src/io/text/text_scan.h"
 
-#include <charconv>
 #include <cstdint>
 #include <type_traits>
+
+#include "src/base/number_text.h"
 
 namespace pileus {
 
@@ -59,7 +60,7 @@ Status TextScan::number(TextRange& range, const std::string& key, Number& value)
     const char* begin = text_.data + range.at;
     const char* end = text_.data + range.end;
     if (begin + 1 < end && *begin == '+' && begin[1] != '-') ++begin;
-    const std::from_chars_result result = std::from_chars(begin, end, value);
+    const std::from_chars_result result = number_from(begin, end, value);
     const bool separated = result.ptr == end || is_text_space(*result.ptr) || *result.ptr == '#' ||
                            *result.ptr == separator_;
     if (result.ec == std::errc() && separated) {
@@ -71,7 +72,7 @@ Status TextScan::number(TextRange& range, const std::string& key, Number& value)
         return fault(range.at, key + ": not a number, " + word);
     if constexpr (std::is_floating_point<Number>::value) {
         double wide = 0;
-        const bool fits = std::from_chars(begin, end, wide).ec == std::errc();
+        const bool fits = number_from(begin, end, wide).ec == std::errc();
         const bool tiny =
             fits ? wide < 1 && wide > -1
                  : word.find("e-") != std::string::npos || word.find("E-") != std::string::npos;

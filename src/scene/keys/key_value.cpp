@@ -3,7 +3,8 @@
 #include "src/scene/keys/key_value.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "src/base/number_text.h"
 
 namespace pileus {
 namespace {
@@ -59,10 +60,9 @@ Node node_of(double value) {
 }
 
 Node node_of(float value) {
-    char digits[40];
+    const std::string digits = number_text(value);
     double shortest = 0;
-    const auto end = std::to_chars(digits, digits + sizeof digits, value);
-    std::from_chars(digits, end.ptr, shortest);
+    number_from(digits.data(), digits.data() + digits.size(), shortest);
     return node_of(shortest);
 }
 

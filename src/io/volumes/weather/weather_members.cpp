@@ -3,7 +3,6 @@
 // in: an index, or what the file calls it -> out: the place along the members.
 // docs/weather.md, "Dimensions"
 #include <algorithm>
-#include <charconv>
 
 #include "src/base/number_text.h"
 #include "src/io/netcdf/netcdf_packing.h"
@@ -18,7 +17,7 @@ constexpr std::uint64_t kMaxMembers = 65536;
 
 bool read_number(const std::string& text, double& value) {
     const char* end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value);
+    const auto read = number_from(text.data(), end, value);
     return read.ec == std::errc() && read.ptr == end;
 }
 

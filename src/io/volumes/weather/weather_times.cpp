@@ -2,8 +2,8 @@
 // Dates of a file's times.
 // in: the variable `Times` of WRF, or a coordinate in units since a date -> out: ISO texts.
 // CF conventions 1.10, section 4.4; Howard Hinnant, "chrono-compatible low-level date algorithms".
-#include <charconv>
 
+#include "src/base/number_text.h"
 #include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_axes.h"
@@ -25,7 +25,7 @@ std::string date_form(std::string text) {
 
 bool whole_number(const std::string& text, std::uint64_t& value) {
     const char* end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value);
+    const auto read = number_from(text.data(), end, value);
     return read.ec == std::errc() && read.ptr == end;
 }
 
@@ -82,7 +82,7 @@ private:
     }
     bool whole(std::int64_t& value) {
         if (at_ == end_ || *at_ < '0' || *at_ > '9') return false;
-        const auto read = std::from_chars(at_, end_, value);
+        const auto read = number_from(at_, end_, value);
         at_ = read.ptr;
         return read.ec == std::errc() && value < 1'000'000;
     }
@@ -94,7 +94,7 @@ private:
         if (mark(':')) {
             if (!whole(minute)) return false;
             if (mark(':')) {
-                const auto read = std::from_chars(at_, end_, second, std::chars_format::fixed);
+                const auto read = number_from(at_, end_, second, std::chars_format::fixed);
                 if (read.ec != std::errc()) return false;
                 at_ = read.ptr;
             }

@@ -4,7 +4,7 @@
 // docs/weather.md, "Units"; UDUNITS-2 for the spellings.
 #include "src/io/volumes/weather/weather_units.h"
 
-#include <charconv>
+#include "src/base/number_text.h"
 
 namespace pileus {
 namespace {
@@ -150,11 +150,11 @@ bool find_row(const std::string& name, Quantity quantity, UnitScale& scale) {
 /// Takes "1e-3", "0.001", "10-3" (10^-3) and blanks off the front of a unit.
 bool take_factor(std::string& unit, double& factor) {
     const char *from = unit.data(), *end = from + unit.size();
-    auto read = std::from_chars(from, end, factor);
+    auto read = number_from(from, end, factor);
     if (read.ec != std::errc() || !(factor > 1e-30 && factor < 1e30)) return false;
     int power = 0;
     if (factor == 10 && read.ptr < end && *read.ptr == '-') {
-        const auto after = std::from_chars(read.ptr, end, power);
+        const auto after = number_from(read.ptr, end, power);
         if (after.ec != std::errc() || power < -30) return false;
         read.ptr = after.ptr;
         for (factor = 1; power < 0; ++power) factor /= 10;
