@@ -36,7 +36,7 @@ write_page() {
         echo
         echo "| configuration | | digest of all scenes, stages and counts |"
         echo "|---|---|---|"
-        for name in "${native[@]}" "${foreign[@]}"; do
+        for name in "${groups[@]}"; do
             if ! grep -qsx "sources $before" "$work/rows/$name"; then
                 missing+=("$name")
                 continue
