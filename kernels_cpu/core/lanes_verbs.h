@@ -21,6 +21,9 @@
 #define PILEUS_AVX512
 #endif
 #endif
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -39,6 +42,9 @@ PILEUS_FN bool any(Mask m) {
 #endif
 #if defined(PILEUS_SSE2)
         if constexpr (sizeof(Mask) == 16) return _mm_movemask_ps((__m128)m) != 0;
+#endif
+#if defined(__wasm_simd128__)
+        if constexpr (sizeof(Mask) == 16) return wasm_v128_any_true((v128_t)m);
 #endif
         std::int32_t r = 0;
         for (int i = 0; i < width_of<Mask>; ++i) r |= m[i];
@@ -60,6 +66,9 @@ PILEUS_FN std::uint32_t bits_of(Mask m) {
 #endif
 #if defined(PILEUS_SSE2)
         if constexpr (sizeof(Mask) == 16) return std::uint32_t(_mm_movemask_ps((__m128)m));
+#endif
+#if defined(__wasm_simd128__)
+        if constexpr (sizeof(Mask) == 16) return wasm_i32x4_bitmask((v128_t)m);
 #endif
         std::uint32_t r = 0;
         for (int i = 0; i < width_of<Mask>; ++i) r |= m[i] ? 1u << i : 0u;
@@ -140,6 +149,9 @@ PILEUS_FN T sqrt_(T v) {
 #endif
 #if defined(PILEUS_SSE2)
         if constexpr (sizeof(T) == 16) return (T)_mm_sqrt_ps((__m128)v);
+#endif
+#if defined(__wasm_simd128__)
+        if constexpr (sizeof(T) == 16) return (T)wasm_f32x4_sqrt((v128_t)v);
 #endif
         T r{};
         for (int i = 0; i < width_of<T>; ++i) r[i] = __builtin_sqrtf(v[i]);
