@@ -26,7 +26,7 @@ struct TurnedPart {
 
 PILEUS_FN std::int64_t turned_row(const SweepParams& k, const TurnedPart& p, std::int32_t row) {
     // Lanes past the last row repeat it. Before the first one its weight is 0, any number will do.
-    const std::int32_t m = max_(min_(p.block.y0 + row, p.block.y1 - 1), 0);
+    const std::int32_t m = max_(min_(p.block.y0 + row, p.block.y1 - 1), std::int32_t{0});
     const std::int64_t y = from_sun(m, k.size[1], k.step[1]);
     const std::int64_t z = from_sun(p.plane, k.size[2], k.step[2]);
     return (z * k.size[1] + y) * k.size[0];
@@ -112,7 +112,7 @@ PILEUS_FN void sweep_turned_rows(const SweepParams& k, const SweepBuffers& b, Sw
     TurnedColumns tau[2], density[2];
     for (std::int32_t c0 = 0; c0 < k.size[0]; c0 += kSweepColumns) {
         const std::int32_t columns = min_(kSweepColumns, k.size[0] - c0);
-        TurnedPart p{block, max_(block.z0 - 1, 0), c0, columns};
+        TurnedPart p{block, max_(block.z0 - 1, std::int32_t{0}), c0, columns};
         turn_in(k, b.density, p, rows, columns, density[1]);
         turn_in(k, before_planes, p, rows, columns, tau[1]);
         for (p.plane = block.z0; p.plane < block.z1; ++p.plane) {

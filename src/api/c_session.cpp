@@ -226,11 +226,10 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
         // A host may hand over any number; in C++ an enumeration holds none but its own.
-        int range = 0;
-        static_assert(sizeof range == sizeof clip, "C's enumerations are int");
+        std::underlying_type_t<pileus_clip> range{};
         std::memcpy(&range, &clip, sizeof range);
         if (range != PILEUS_CLIP_ZERO && range != PILEUS_CLIP_MINUS_ONE)
-            return Status::bad_input("clip: " + std::to_string(range) +
+            return Status::bad_input("clip: " + std::to_string(int(range)) +
                                      ", allowed: PILEUS_CLIP_MINUS_ONE, PILEUS_CLIP_ZERO");
         Camera camera = session->session->camera();
         DepthScale scale;

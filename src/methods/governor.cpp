@@ -78,7 +78,7 @@ FrameWork govern(const std::vector<FrameWork>& ladder, double frame_s, Governor&
     const double cost = g.cost_s[g.level];
     if (cost > g.target_s && g.level < last && g.frames > 3) {
         const std::size_t down = cost > 2 * g.target_s ? 2 : 1;
-        go_to(std::min(g.level + down, last), g);
+        go_to(std::min<std::size_t>(g.level + down, last), g);
     } else if (g.level > 0 && cost <= kSpare * g.target_s) {
         if (++g.spare < kPatience) return ladder[g.level];
         g.spare = 0;

@@ -53,7 +53,7 @@ private:
 /// A tenth of the pixels at random, then moved from clusters into voids until nothing moves.
 void first_pattern(Pattern& p, int count) {
     for (std::uint32_t draw = 0, n = 0; int(n) < count; ++draw) {
-        const int pixel = int(threefry(7u, 7u, draw, 0u).a % std::uint32_t(kPixels));
+        const int pixel = int(threefry<std::uint32_t>(7, 7, draw, 0).a % std::uint32_t(kPixels));
         if (p.taken(pixel)) continue;
         p.set(pixel, true);
         ++n;

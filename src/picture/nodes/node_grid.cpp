@@ -86,8 +86,8 @@ NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {
         const float low = (camera[a] - near.reach) * g.per_metre[a] - 0.5f;
         const float high = (camera[a] + near.reach) * g.per_metre[a] - 0.5f;
         if (!(high > -1.0f && low < float(g.size[a]))) return out;
-        near.first[a] = std::max(floor_int(low), 0);
-        near.size[a] = std::min(floor_int(high) + 2, g.size[a]) - near.first[a];
+        near.first[a] = std::max<std::int32_t>(floor_int(low), 0);
+        near.size[a] = std::min<std::int32_t>(floor_int(high) + 2, g.size[a]) - near.first[a];
     }
     return near;
 }

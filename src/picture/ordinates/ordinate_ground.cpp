@@ -100,8 +100,8 @@ Entry entry_of(const Medium& medium, const float (&at)[3], const Look& look) {
 
 /// Beyond the map nothing is known: light ends at its rim without an edge.
 float rim_share(const OrdinateGround& ground, int x, int y) {
-    const int in_x = std::min(x, ground.map.size[0] - 1 - x),
-              in_y = std::min(y, ground.map.size[1] - 1 - y);
+    const int in_x = std::min(x, int(ground.map.size[0]) - 1 - x),
+              in_y = std::min(y, int(ground.map.size[1]) - 1 - y);
     return std::min((float(std::min(in_x, in_y)) + 0.5f) / float(kRim), 1.0f);
 }
 

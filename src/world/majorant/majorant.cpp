@@ -132,11 +132,6 @@ Status halve(const Grid& grid, int block, Span<const float> fine, int threads,
 
 }  // namespace
 
-void block_counts(const Grid& grid, int block, int counts[3]) {
-    assert(block >= 1);
-    for (int a = 0; a < 3; ++a) counts[a] = (grid.size[a] - 1) / block + 1;
-}
-
 std::uint64_t block_total(const Grid& grid, int block) {
     int n[3];
     block_counts(grid, block, n);

@@ -3,6 +3,7 @@
 // in: densities -> out: the largest density per block of voxels, and the best size of a block.
 // docs/methods.md 1 (majorant over the trilinear footprint); tools/bench/README.md.
 #pragma once
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,7 +16,11 @@
 namespace pileus {
 
 /// Blocks of `block` voxels along each axis that cover the grid; the last may be cut short.
-void block_counts(const Grid& grid, int block, int counts[3]);
+template <class Int>  // int, or the std::int32_t of kernels, which is long on some machines
+void block_counts(const Grid& grid, int block, Int counts[3]) {
+    assert(block >= 1);
+    for (int a = 0; a < 3; ++a) counts[a] = (grid.size[a] - 1) / block + 1;
+}
 
 /// All of them.
 std::uint64_t block_total(const Grid& grid, int block);

@@ -86,6 +86,7 @@ void fill_slice(const float* from, const Grid& coarse, const DetailView& v, int 
                 Medium& out) {
     const Grid& fine = out.grid;
     const float per_cell = 1.0f / float(refine);
+    const std::int32_t size[3] = {coarse.size[0], coarse.size[1], coarse.size[2]};
     const auto middle = [](int i) { return float(i) + 0.5f; };
     for (int y = 0; y < fine.size[1]; ++y)
         for (int x = 0; x < fine.size[0]; ++x) {
@@ -93,8 +94,8 @@ void fill_slice(const float* from, const Grid& coarse, const DetailView& v, int 
             const Vec<float> p{cell.x * per_cell, cell.y * per_cell, cell.z * per_cell};
             const Vec<float> metres{cell.x * fine.cell_m[0], cell.y * fine.cell_m[1],
                                     cell.z * fine.cell_m[2]};
-            const Corners<float> c = coarse.constant ? own_cell(p, coarse.size)
-                                                     : corners(p, coarse.size, coarse.periodic);
+            const Corners<float> c =
+                coarse.constant ? own_cell(p, size) : corners(p, size, coarse.periodic);
             out.volume.density[voxel_index(fine, x, y, z)] =
                 with_detail(v, metres, interpolate(from, c));
         }

@@ -12,7 +12,7 @@ namespace pileus {
 
 /// One level of the pyramid: sums over 2^level nodes along each axis.
 struct NodeLevel {
-    int size[3];
+    std::int32_t size[3];
     std::size_t first;  ///< its first node among those of all levels
     std::size_t nodes() const {
         return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);

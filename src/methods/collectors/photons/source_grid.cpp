@@ -205,7 +205,7 @@ std::vector<NodeLevel> node_levels(const NodeGrid& g) {
         levels.push_back(level);
         if (level.nodes() == 1) return levels;
         level.first += level.nodes();
-        for (int& n : level.size) n = (n + 1) / 2;
+        for (std::int32_t& n : level.size) n = (n + 1) / 2;
     }
 }
 

@@ -120,8 +120,8 @@ bool LeafList::holds_medium(const VoxelBox& box) const {
     // Include the one-voxel border: the trilinear field reaches half a voxel into it.
     int lo[3], hi[3];
     for (int a = 0; a < 3; ++a) {
-        lo[a] = std::max(box.lo[a] - 1, 0);
-        hi[a] = std::min(box.hi[a] + 1, grid_.size[a]);
+        lo[a] = std::max(int(box.lo[a]) - 1, 0);
+        hi[a] = std::min(int(box.hi[a]) + 1, grid_.size[a]);
     }
     for (int k = lo[2]; k < hi[2]; ++k)
         for (int j = lo[1]; j < hi[1]; ++j) {

@@ -29,8 +29,8 @@ void for_each_leaf(int threads, std::size_t count, Function&& work) {
 float footprint_max(Span<const float> density, const Grid& grid, const Leaf& leaf) {
     int lo[3], hi[3];
     for (int a = 0; a < 3; ++a) {
-        lo[a] = std::max(leaf.lo[a] - 1, 0);
-        hi[a] = std::min(leaf.hi[a] + 1, grid.size[a]);
+        lo[a] = std::max(int(leaf.lo[a]) - 1, 0);
+        hi[a] = std::min(int(leaf.hi[a]) + 1, grid.size[a]);
     }
     float largest = 0.0f;
     for (int k = lo[2]; k < hi[2]; ++k)
@@ -59,10 +59,10 @@ void measure(Span<const float> density, const Grid& grid, double* row, Leaf& lea
                 filled += values[i] > 0.0f;
                 if (!(mass > 0)) continue;
                 leaf.mass += mass;
-                const int voxel[3] = {i, j, k};
+                const std::int32_t voxel[3] = {i, j, k};
                 for (int a = 0; a < 3; ++a) {
                     m.lo[a] = std::min(m.lo[a], voxel[a]);
-                    m.hi[a] = std::max(m.hi[a], voxel[a] + 1);
+                    m.hi[a] = std::max<std::int32_t>(m.hi[a], voxel[a] + 1);
                     m.first[a] += mass * (double(voxel[a] - leaf.lo[a]) + 0.5);
                 }
             }

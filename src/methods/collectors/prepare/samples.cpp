@@ -114,8 +114,8 @@ Status sample_stratified(Span<const float> field, const FieldStats& stats,
     for_each_chunk(threads, options.count, [&](std::uint32_t first, std::uint32_t last) {
         Inverse inverse(field, grid, start.span());
         for (std::uint32_t s = first; s < last; ++s) {
-            const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, 0u);
-            const Words<std::uint32_t> v = threefry(key.k0, key.k1, s, 1u);
+            const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, std::uint32_t{0});
+            const Words<std::uint32_t> v = threefry(key.k0, key.k1, s, std::uint32_t{1});
             const std::size_t found = inverse.find((double(s) + double(u.a) * 0x1p-32) * share);
             const int voxel[3] = {int(found % nx), int(found / nx % ny), int(found / nx / ny)};
             const std::uint32_t words[3] = {u.b, v.a, v.b};
@@ -136,7 +136,7 @@ Status sample_rejection(Span<const float> field, const FieldStats& stats, Span<c
     PILEUS_TRY(allocate(arrays::drawn_samples(options.count), found));
     PILEUS_TRY(allocate(arrays::sample_tries(options.count), tries));
     const Key key = make_key(options.seed, options.stream, options.high);
-    const std::uint32_t limit = std::min(options.max_tries, 0x7fffffffu);
+    const std::uint32_t limit = std::min<std::uint32_t>(options.max_tries, 0x7fffffff);
     const auto draw = [&](std::uint32_t s) {
         for (std::uint32_t t = 0; t < limit; ++t) {
             const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, 2u * t);
