@@ -33,6 +33,9 @@ target_include_directories(pileus_flight_objects BEFORE PRIVATE "${PROJECT_SOURC
 target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
 target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
     PILEUS_VERSION_TEXT="${PROJECT_VERSION}" ${PILEUS_ISA_DEFINITIONS})
+if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+    target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_ONE_THREAD=1)
+endif()
 # One file knows the methods, so that another choice compiles little else.
 set(flight_names)
 foreach(method IN LISTS flight_methods)
@@ -143,11 +146,47 @@ if(PILEUS_INSTALL)
         COMPONENT flight)
 endif()
 
-# The example, which tools/flight flies with, and what it tries besides.
-foreach(source examples/flight_loop program/flight_faults program/flight_settings)
-    cmake_path(GET source FILENAME name)
-    set_source_files_properties(tests/flight/${source}.c PROPERTIES LANGUAGE CXX)
-    add_executable(${name} EXCLUDE_FROM_ALL tests/flight/${source}.c)
+# The examples, which tools/flight flies with, and what it tries besides.
+set(flight_programs
+    "flight_loop tests/flight/examples/flight_loop.c"
+    "flight_faults tests/flight/program/flight_faults.c"
+    "flight_settings tests/flight/program/flight_settings.c"
+    "flight_task tests/flight/program/fly_task.c tests/flight/examples/flight_task.c")
+set(flight_board tests/flight/program/board_host.c)
+set(flight_start)
+if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+    # Images. Only flight_task does without a C library: tests/flight/bare has all that it takes.
+    enable_language(C)
+    set(flight_board tests/flight/bare/semihosting.c tests/flight/bare/start.c tests/flight/bare/stubs.c)
+    set(flight_start tests/flight/bare/start.c)
+    set_source_files_properties(tests/flight/bare/stubs.c PROPERTIES COMPILE_OPTIONS -fno-builtin)
+endif()
+add_custom_target(flight_programs)
+foreach(row IN LISTS flight_programs)
+    separate_arguments(row)
+    list(POP_FRONT row name)
+    set(flight_links)
+    if(name STREQUAL "flight_task")
+        list(APPEND row ${flight_board})
+        set(flight_links -nostdlib -nostartfiles)
+        set(flight_runtime gcc)
+    else()
+        list(APPEND row ${flight_start})
+        set(flight_links --specs=rdimon.specs)
+        set(flight_runtime m)
+    endif()
+    add_executable(${name} EXCLUDE_FROM_ALL ${row})
+    add_dependencies(flight_programs ${name})
     target_link_libraries(${name} PRIVATE pileus_flight)
     target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+    if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+        set_target_properties(${name} PROPERTIES LINKER_LANGUAGE C POSITION_INDEPENDENT_CODE OFF
+            COMPILE_OPTIONS "-std=c99;-Wall;-Wextra;-Wpedantic;-Werror"
+            LINK_DEPENDS "${PROJECT_SOURCE_DIR}/tests/flight/bare/image.ld")
+        target_link_options(${name} PRIVATE -T "${PROJECT_SOURCE_DIR}/tests/flight/bare/image.ld"
+            -Wl,--gc-sections -Wl,--no-warn-rwx-segments ${flight_links})
+        target_link_libraries(${name} PRIVATE ${flight_runtime})
+    else()
+        set_source_files_properties(${row} PROPERTIES LANGUAGE CXX)
+    endif()
 endforeach()

@@ -17,4 +17,6 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # Headers alone are the host's (pileus_find_headers); such a system knows no folders of its own.
 set(CMAKE_INCLUDE_PATH /usr/local/include /usr/include)
 # Doubles are computed by the processor; libraries of the C runtime are those of ARMv7 with it.
-set(CMAKE_CXX_FLAGS_INIT "-mcpu=cortex-r5 -mthumb -mfloat-abi=hard -mfpu=vfpv3-d16")
+foreach(language C CXX)
+    set(CMAKE_${language}_FLAGS_INIT "-mcpu=cortex-r5 -mthumb -mfloat-abi=hard -mfpu=vfpv3-d16")
+endforeach()

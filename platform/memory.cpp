@@ -6,7 +6,11 @@ namespace pileus {
 namespace {
 
 /// Holds something only below a guard, so that no state outlives a call.
+#ifdef PILEUS_ONE_THREAD
+Host lent;  // no thread pointer, and one task that calls
+#else
 thread_local Host lent;
+#endif
 
 }  // namespace
 

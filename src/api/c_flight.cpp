@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: a session in a block of the caller.
-#include <csetjmp>
-
 #include "include/pileus/pileus.h"
 #include "src/api/c_types.h"
 #include "src/flight/block.h"
 #include "src/flight/flight.h"
+#include "src/flight/jump.h"
 
 namespace pileus::api {
 namespace {
 
-/// A library without exceptions leaves its constructors by longjmp where the block ends, which only
+/// A library without exceptions leaves its constructors by a jump where the block ends, which only
 /// the caller's own thread can: threads are lent once the session is open.
 #ifdef __cpp_exceptions
 constexpr bool kOpensOnThreads = true;
@@ -120,8 +119,8 @@ pileus_code pileus_flight_open(const pileus_flight* flight, pileus_session** ses
     // guards are not jumped over.
     const HostGuard host{Host(current_host())};
     const FpModeGuard mode;
-    std::jmp_buf way_out;
-    if (setjmp(way_out) != 0) return finish(Code::kLimit, kTooSmall, error);
+    JumpPlace way_out;
+    if (PILEUS_SET_JUMP(way_out) != 0) return finish(Code::kLimit, kTooSmall, error);
     block->set_way_out(&way_out);
     HostParts first;
     lend(f, block, first);

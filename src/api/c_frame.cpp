@@ -131,7 +131,7 @@ pileus_code pileus_session_progress(const pileus_session* session, pileus_progre
         out.whole = std::uint32_t(light.whole < UINT32_MAX ? light.whole : UINT32_MAX);
         out.unit_photons = light.unit_photons;
         out.units = light.held;
-        std::strncpy(out.unit, light.unit, sizeof out.unit - 1);
+        copy_cut(light.unit, out.unit, sizeof out.unit);
         return give(out, info, "info");
     });
 }

@@ -4,7 +4,6 @@
 // docs/embedding.md
 #pragma once
 #include <atomic>
-#include <csetjmp>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -13,6 +12,7 @@
 #include "platform/fp_mode.h"
 #include "platform/memory.h"
 #include "src/flight/block.h"
+#include "src/flight/jump.h"
 #include "src/flight/pack.h"
 #include "src/session/session.h"
 
@@ -187,7 +187,7 @@ struct pileus_session {
 
 namespace pileus::api {
 
-/// In a flight. A library without exceptions leaves what it is at by longjmp where even small
+/// In a flight. A library without exceptions leaves what it is at by a jump where even small
 /// objects find no room; the guards are those that are jumped over.
 template <class Work>
 pileus_code call_in_block(const HostParts& host, pileus_error* error, Work work) {
@@ -197,8 +197,8 @@ pileus_code call_in_block(const HostParts& host, pileus_error* error, Work work)
 #else
     const HostGuard outer{Host(current_host())};
     const FpModeGuard mode;
-    std::jmp_buf way_out;
-    if (setjmp(way_out) != 0) return broken_off(host, error);
+    JumpPlace way_out;
+    if (PILEUS_SET_JUMP(way_out) != 0) return broken_off(host, error);
     host.block->set_way_out(&way_out);
     const pileus_code code = settle(host, call(&host, error, work), error);
     host.block->set_way_out(nullptr);

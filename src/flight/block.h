@@ -41,8 +41,8 @@ public:
     /// The same for whoever takes arrays.
     Allocator allocator();
 
-    /// Where a library without exceptions goes when memory ends for a small object: a std::jmp_buf
-    /// of the calling thread.
+    /// Where a library without exceptions goes when memory ends for a small object: a JumpPlace of
+    /// the calling thread.
     void set_way_out(void* way_out);
     /// Null on other threads.
     void* way_out() const;

@@ -5,12 +5,11 @@
 // docs/flight.md, "Memory"
 #include "platform/memory.h"
 
-#include <csetjmp>
-#include <cstdlib>
 #include <new>
 #include <string>
 
 #include "src/flight/block.h"
+#include "src/flight/jump.h"
 
 namespace {
 
@@ -31,15 +30,23 @@ void give(void* memory) {
 
 void* take_or_leave(std::size_t bytes) {
     if (void* const memory = take(bytes)) return memory;
-    // All lies in the block, which is the caller's to take back. Threads that are lent have no
-    // block and take nothing.
-    pileus::Block* const from = block();
-    if (from != nullptr && from->way_out() != nullptr)
-        std::longjmp(*static_cast<std::jmp_buf*>(from->way_out()), 1);
-    std::abort();
+    pileus::leave_call();
 }
 
 }  // namespace
+
+namespace pileus {
+
+/// All lies in the block, which is the caller's to take back. Threads that are lent have no way
+/// out and take nothing: there an instruction that no processor has is the end.
+[[gnu::noinline]] void leave_call() {
+    Block* const from = block();
+    if (from != nullptr && from->way_out() != nullptr)
+        __builtin_longjmp(static_cast<JumpPlace*>(from->way_out())->words, 1);
+    __builtin_trap();
+}
+
+}  // namespace pileus
 
 void* operator new(std::size_t bytes) { return take_or_leave(bytes); }
 void* operator new[](std::size_t bytes) { return take_or_leave(bytes); }
@@ -55,18 +62,18 @@ void operator delete(void* memory, std::align_val_t) noexcept { give(memory); }
 template class std::basic_string<char>;
 
 // A container was asked for what it does not have, which is a fault of the library: there is no
-// state to go on from.
+// state to go on from, and the session takes no more calls.
 namespace std {
-void __throw_length_error(const char*) { std::abort(); }
-void __throw_logic_error(const char*) { std::abort(); }
-void __throw_out_of_range(const char*) { std::abort(); }
-void __throw_out_of_range_fmt(const char*, ...) { std::abort(); }
-void __throw_invalid_argument(const char*) { std::abort(); }
-void __throw_bad_alloc() { std::abort(); }
-void __throw_bad_array_new_length() { std::abort(); }
-void __throw_bad_function_call() { std::abort(); }
+void __throw_length_error(const char*) { pileus::leave_call(); }
+void __throw_logic_error(const char*) { pileus::leave_call(); }
+void __throw_out_of_range(const char*) { pileus::leave_call(); }
+void __throw_out_of_range_fmt(const char*, ...) { pileus::leave_call(); }
+void __throw_invalid_argument(const char*) { pileus::leave_call(); }
+void __throw_bad_alloc() { pileus::leave_call(); }
+void __throw_bad_array_new_length() { pileus::leave_call(); }
+void __throw_bad_function_call() { pileus::leave_call(); }
 }  // namespace std
 
 extern "C" {
-[[noreturn]] void __cxa_pure_virtual() { std::abort(); }
+[[noreturn]] void __cxa_pure_virtual() { pileus::leave_call(); }
 }

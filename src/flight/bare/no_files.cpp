@@ -4,6 +4,7 @@
 // one line. docs/flight.md, "Packed scenes"
 #include "platform/device.h"
 #include "src/base/number_text.h"
+#include "src/flight/jump.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/path/path_state.h"
@@ -72,6 +73,6 @@ std::string number_text(double number) { return std::to_string(std::int64_t(numb
 std::string number_text(float number) { return number_text(double(number)); }
 std::string number_text(double number, int) { return number_text(number); }
 
-[[noreturn]] void stop_out_of_range(std::size_t, std::size_t, std::size_t) { __builtin_abort(); }
+[[noreturn]] void stop_out_of_range(std::size_t, std::size_t, std::size_t) { leave_call(); }
 
 }  // namespace pileus

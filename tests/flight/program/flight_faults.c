@@ -2,11 +2,12 @@
  * What a flight library does where things are not as they should be: run by tools/flight.
  * in: a packed scene -> out: "sound", or the first thing that is wrong and exit status 1.
  * docs/flight.md, "Promises" */
-#include <fenv.h>
 #include <pileus/pileus.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "tests/flight/program/rounding.h"
 
 static int wrong(const char* what) {
     printf("%s\n", what);
@@ -58,14 +59,14 @@ int main(int argc, char** argv) {
                                         : (size_t)(packed.block_bytes * (uint64_t)part / 800);
         flight.run = part % 2 == 0 ? run : NULL;
         flight.threads = 3;
-        fesetround(FE_UPWARD);
+        round_upwards(1);
         if (pileus_flight_open(&flight, &session, &error) == PILEUS_OK)
             pileus_flight_close(session);
         else if (error.code != PILEUS_ERROR_LIMIT)
             return wrong(error.message);
-        if (fegetround() != FE_UPWARD) return wrong("another rounding after opening in vain");
+        if (!rounds_upwards()) return wrong("another rounding after opening in vain");
     }
-    fesetround(FE_TONEAREST);
+    round_upwards(0);
     if (pileus_packed_read(scene, bytes - 1, &packed, &error) != PILEUS_ERROR_INPUT)
         return wrong("a scene cut short was taken");
     if (pileus_session_step(NULL, 1, NULL, &error) != PILEUS_ERROR_INPUT)
