@@ -32,7 +32,8 @@ pileus_code flight_task_run(flight_task* task) {
     PILEUS_INIT(task->use);
     PILEUS_INIT(camera);
     PILEUS_INIT(sun);
-    task->flight.frame->hash = &hash;
+    task->picture.hash = &hash;
+    task->flight.frame = &task->picture;
     code = pileus_flight_open(&task->flight, &session, &task->error);
     if (code != PILEUS_OK) return code;
     last = hooks->ticks(hooks->user);

@@ -20,7 +20,8 @@ typedef struct flight_task_hooks {
 
 typedef struct flight_task {
     flight_task_hooks hooks;
-    pileus_flight flight; /* scene, block; its frame is the picture */
+    pileus_flight flight; /* scene, block */
+    pileus_frame picture;
     pileus_flight_use use;
     uint32_t period; /* ticks of a frame */
     uint32_t units;  /* of light in a frame, one in a slice */

@@ -68,11 +68,10 @@ static int fly(const char* name, uint32_t frames, char* memory, size_t room) {
     flight_task task = {0};
     counts counted = {0, 0, 0, 0, 0xcbf29ce484222325u};
     pileus_packed packed;
-    pileus_frame picture;
     size_t at = (64 - (size_t)memory % 64) % 64, size, pixels;
     PILEUS_INIT(task.error);
     PILEUS_INIT(packed);
-    PILEUS_INIT(picture);
+    PILEUS_INIT(task.picture);
     PILEUS_INIT(task.flight);
     task.flight.scene = memory + at;
     size = board_read(name, memory + at, room - at);
@@ -84,11 +83,10 @@ static int fly(const char* name, uint32_t frames, char* memory, size_t room) {
     at += (size + 63) / 64 * 64;
     if (pileus_packed_read(task.flight.scene, size, &packed, &task.error) == PILEUS_OK) {
         pixels = 4 * (size_t)packed.width * packed.height;
-        picture.format = PILEUS_FORMAT_RGBA8_SRGB;
-        picture.colour = memory + at;
+        task.picture.format = PILEUS_FORMAT_RGBA8_SRGB;
+        task.picture.colour = memory + at;
         at += (pixels + 63) / 64 * 64;
         task.flight.in_place = 1;
-        task.flight.frame = &picture;
         task.flight.block = memory + at;
         task.flight.block_bytes = (size_t)packed.in_place_bytes;
         if (at >= room || task.flight.block_bytes > room - at) {
