@@ -17,8 +17,8 @@ FpModeGuard::FpModeGuard() {
 
 FpModeGuard::~FpModeGuard() { asm volatile("mtfsf 255,%0" : : "d"(saved_)); }
 #elif defined(__arm__) && defined(__ARM_FP)
-// Without a C library, too: rounding, what is flushed and which NaN is made are bits of one register;
-// all 0 is IEEE.
+// Without a C library, too: rounding, what is flushed and which NaN is made are bits of one
+// register; all 0 is IEEE.
 FpModeGuard::FpModeGuard() {
     static_assert(sizeof saved_ == sizeof(std::uint32_t));
     asm volatile("vmrs %0, fpscr" : "=r"(saved_));

@@ -19,7 +19,8 @@ struct JumpPlace {
 
 }  // namespace pileus
 
-// Whether somebody jumped here; 0 when it is reached in order. Libraries that throw have no need of it.
+// Whether somebody jumped here; 0 when it is reached in order. Libraries that throw have no need of
+// it.
 #ifdef PILEUS_FLIGHT
 #define PILEUS_SET_JUMP(place) __builtin_setjmp((place).words)
 #else

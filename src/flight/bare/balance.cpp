@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ordered maps and shared objects ask of the C++ runtime, whose names these are; the library needs
-// no other part of it. Trees stay balanced: no way down is more than twice as long as another.
-// in: nodes of a tree -> out: neighbours in its order; a new node in its place. docs/flight.md, "Build"
+// What ordered maps and shared objects ask of the C++ runtime, whose names these are; the library
+// needs no other part of it. Trees stay balanced: no way down is more than twice as long as
+// another. in: nodes of a tree -> out: neighbours in its order; a new node in its place.
+// docs/flight.md, "Build"
 #include <map>
 #include <memory>
 
@@ -27,8 +28,8 @@ void turn(Node* node, bool right, Node*& root) {
     node->_M_parent = up;
 }
 
-/// The next node, or the one before. The head, whose parent is the root and which is the root's, stands
-/// behind the last and before the first.
+/// The next node, or the one before. The head, whose parent is the root and which is the root's,
+/// stands behind the last and before the first.
 Node* beside(Node* node, bool right) {
     Node* child = right ? node->_M_right : node->_M_left;
     if (child != nullptr) {

@@ -6,7 +6,8 @@
 #define PILEUS_BOARD_H
 #include <stddef.h>
 
-/* The file at `place`, which has `room` bytes. Returns its size, 0: cannot be read, or is larger. */
+/* The file at `place`, which has `room` bytes. Returns its size, 0: cannot be read, or is larger.
+ */
 size_t board_read(const char* name, void* place, size_t room);
 void board_print(const char* text);
 /* All memory that the program does not have itself. Returns how many bytes. */

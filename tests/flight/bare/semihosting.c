@@ -3,7 +3,7 @@
  * in: memory as image.ld divides it -> out: main() with a cleared .bss; its status at the end. */
 #include <stdint.h>
 
-#include "board.h"
+#include "tests/flight/bare/board.h"
 
 extern char image_bss[], image_bss_end[], image_end[], image_memory_end[];
 int main(int argc, char** argv);

@@ -2,7 +2,7 @@
  * A flight as a task of a real-time operating system: a frame a period, its light in slices of one
  * unit, between which tasks of the same priority run. No header of a system, no function of a C library.
  * in, out: see flight_task.h. docs/flight.md, "Tasks". */
-#include "flight_task.h"
+#include "tests/flight/examples/flight_task.h"
 
 /* No clock decides what is drawn: a late task draws the same pictures, later. */
 static pileus_code draw(flight_task* task, pileus_session* session, uint32_t frame,

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A flight as a task of a real-time operating system: see flight_task.c.
- * in: a packed scene, a block, a picture, what the system offers -> out: frames, each in its period.
- * docs/flight.md, "Tasks". */
+ * in: a packed scene, a block, a picture, what the system offers -> out: frames, each in its
+ * period. docs/flight.md, "Tasks". */
 #ifndef PILEUS_FLIGHT_TASK_H
 #define PILEUS_FLIGHT_TASK_H
 #include <pileus/pileus.h>
 
-/* What the system and the machine offer. Of FreeRTOS: `ticks` calls xTaskGetTickCount(), `delay_until`
- * vTaskDelayUntil(last, period), `yield` taskYIELD(). */
+/* What the system and the machine offer. Of FreeRTOS: `ticks` calls xTaskGetTickCount(),
+ * `delay_until` vTaskDelayUntil(last, period), `yield` taskYIELD(). */
 typedef struct flight_task_hooks {
     void* user;
     uint32_t (*ticks)(void* user);
@@ -28,7 +28,8 @@ typedef struct flight_task {
     pileus_error error;
 } flight_task;
 
-/* The body of the task: returns when `move` ends it, or with the code that error.message explains. */
+/* The body of the task: returns when `move` ends it, or with the code that error.message explains.
+ */
 pileus_code flight_task_run(flight_task* task);
 
 #endif

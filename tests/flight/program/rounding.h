@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The caller's rounding, which calls give back: upwards, or to nearest.
- * in, out: the processor's mode, by <fenv.h> where the C library has it, else by ARM's own register. */
+ * in, out: the processor's mode, by <fenv.h> where the C library has it, else by ARM's own
+ * register. */
 #ifndef PILEUS_ROUNDING_H
 #define PILEUS_ROUNDING_H
 #include <fenv.h>
