@@ -33,7 +33,7 @@ class Pileus(ConanFile):
 
     def requirements(self):
         # Headers alone, within the library.
-        for package in ("cli11/2.4.2", "fmt/10.2.1", "glm/1.0.1", "nlohmann_json/3.11.3", "tomlplusplus/3.4.0",
+        for package in ("cli11/2.4.2", "fast_float/6.1.1", "fmt/10.2.1", "glm/1.0.1", "nlohmann_json/3.11.3", "tomlplusplus/3.4.0",
                         "xxhash/0.8.2"):
             self.requires(package, visible=False)
         if self.options.openexr:
