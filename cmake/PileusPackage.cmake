@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages by cpack: the program, the shared library, what programs are built with.
-# in: components program, library, dev -> out: pileus_*.deb, libpileus0.20_*.deb (by the soname), libpileus-dev_*.deb
+# in: components program, library, dev -> out: pileus_*.deb, libpileus0.21_*.deb (by the soname), libpileus-dev_*.deb
 # docs/packages.md; tools/release builds and tries them. Libraries lie where Debian has them with -DCMAKE_INSTALL_PREFIX=/usr.
 set(package_program pileus)
 set(package_library libpileus${PILEUS_SOVERSION})

@@ -41,7 +41,7 @@ extern "C" {
 
 /** Of this header; the library's own by pileus_version. */
 #define PILEUS_VERSION_MAJOR 0
-#define PILEUS_VERSION_MINOR 20
+#define PILEUS_VERSION_MINOR 21
 #define PILEUS_VERSION_PATCH 0
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
