@@ -392,7 +392,6 @@ enum class Blend : std::uint32_t {
     kMedia = PILEUS_BLEND_MEDIA       ///< the media alone, premultiplied by their alpha
 };
 
-/// Buffers of the caller, for one picture.
 /// A channel of the picture, as pileus_layer.
 struct Layer {
     std::string name;         ///< "R", "A", "tau", ...: docs/formats.md, "Pictures out"
@@ -400,6 +399,7 @@ struct Layer {
     std::int64_t stride = 0;  ///< bytes from row to row; 0: tightly packed
 };
 
+/// Buffers of the caller, for one picture.
 struct Frame {
     void* colour = nullptr;  ///< first byte of the first row in memory; null: none
     Format format = Format::kRgba8Srgb;

@@ -44,7 +44,7 @@ std::uint32_t kept_registers() {
     unsigned a = 0, b = 0, c = 0, d = 0;
     if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & kOsSaves) == 0) return 0;
     std::uint32_t low = 0, high = 0;
-    asm("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
     return low;
 }
 

@@ -106,6 +106,9 @@ Status take_target(const pileus_frame& f, const Camera& camera, FrameTarget& tar
 
 Status render_frame(const pileus_frame& f, pileus_session& session) {
     FrameTarget target;
+    // Flights take no memory for them.
+    if (f.layer_count > 0 && session.host->block != nullptr)
+        return Status::bad_input("frame.layers: of no flight, allowed: none");
     PILEUS_TRY(take_target(f, session.session->camera(), target));
     std::uint64_t hash = 0;
     target.hash = f.hash != nullptr ? &hash : nullptr;

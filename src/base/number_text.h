@@ -16,8 +16,7 @@ std::string number_text(float value);
 std::string number_text(double value, int digits);
 
 /// Reads the number at the front of [begin, end), rounded to the nearest, as std::from_chars does:
-/// no sign
-/// "+" and no blanks before it; "inf" and "nan" are numbers. `value` stays as it is on a fault.
+/// no "+" and no blanks before it; "inf" and "nan" are numbers. `value` stays as it is on a fault.
 /// Not every C++ library has std::from_chars of a floating type.
 std::from_chars_result number_from(const char* begin, const char* end, double& value,
                                    std::chars_format form = std::chars_format::general);

@@ -221,6 +221,7 @@ Status Session::render(const FrameTarget& target) {
     if (target.has_depth && scene_.camera.flux)
         return Status::bad_input(
             "frame.depth: a flat detector sees along no single ray, allowed: another projection");
+    if (!target.layers.empty()) PILEUS_TRY(check_layers(target.layers));
     PILEUS_TRY(aim());
     if (fading_ != nullptr) {
         bool goes_on = false;
@@ -236,6 +237,7 @@ Status Session::render(const FrameTarget& target) {
         (rays && (target.has_depth || row_.keeps_parts || nothing || !target.layers.empty())) ||
         fading_ != nullptr;
     report_.counters.clear();
+    report_.errors = {};
     // A hash, depths and layers are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
                       target.layers.empty() && fading_ == nullptr &&

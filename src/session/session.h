@@ -221,7 +221,8 @@ private:
     FrameView view() { return scenery_.view(host_.number); }
     /// The method's picture, seen through the air.
     Status draw(const FrameView& view, const RenderAsk& ask, Planes*& planes);
-    /// Channels of the image that the picture would be in a file.
+    /// Whether pictures may have them, and channels of the image that a picture would be in a file.
+    Status check_layers(const std::vector<LayerTarget>& layers) const;
     Status show_layers(const FrameView& view, const std::vector<LayerTarget>& layers,
                        const Planes& planes);
     Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
@@ -245,7 +246,7 @@ private:
     Status check_method(bool hosted, const World* world);
     void tell_plan(bool exact);
     void keep_opened();
-    Status take_world(std::vector<MediumSettings>& media, std::shared_ptr<const World>& world);
+    Status take_world(std::vector<MediumSettings>& media, std::shared_ptr<const World> world);
     /// As trace, where a host may end it.
     Status trace_passes(std::uint64_t held, std::uint64_t units, std::uint64_t& done);
     Status take_frame(int frame);

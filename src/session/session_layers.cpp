@@ -9,16 +9,57 @@
 namespace pileus {
 namespace {
 
-Status unknown_layer(const std::string& name, std::size_t at, const Image& image) {
-    std::string known;
-    for (const Channel& channel : image.channels)
-        known += (known.empty() ? "" : ", ") + channel.name;
+/// Names of channels, or how they begin, and what has them made; null: every picture has them.
+struct LayerName {
+    const char* begin;
+    bool OutputSettings::*wanted;
+};
+constexpr LayerName kNames[] = {{"R", nullptr},
+                                {"G", nullptr},
+                                {"B", nullptr},
+                                {"A", nullptr},
+                                {"Z", &OutputSettings::layer_depth},
+                                {"cloud.", &OutputSettings::layer_cloud},
+                                {"tau", &OutputSettings::layer_optical_depth},
+                                {"T", &OutputSettings::layer_transmittance},
+                                {"sun.", &OutputSettings::layer_light},
+                                {"sky.", &OutputSettings::layer_light},
+                                {"lamp", &OutputSettings::layer_light},
+                                {"emission.", &OutputSettings::layer_light},
+                                {"single.", &OutputSettings::layer_order},
+                                {"multiple.", &OutputSettings::layer_order},
+                                {"reflectance.", &OutputSettings::layer_reflectance},
+                                {"shadow", &OutputSettings::layer_shadow},
+                                {"occlusion", &OutputSettings::layer_occlusion},
+                                {"error.", &OutputSettings::layer_error}};
+
+Status unknown_layer(const std::string& name, std::size_t at, const std::string& known) {
     return Status::bad_input("frame.layers[" + std::to_string(at) + "].name: \"" + name +
-                             "\", allowed: " + known +
-                             ", and what output.layers of the scene adds to them");
+                             "\", allowed: " + known);
 }
 
 }  // namespace
+
+Status Session::check_layers(const std::vector<LayerTarget>& layers) const {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        bool known = false;
+        std::string list;
+        for (const LayerName& row : kNames) {
+            if (row.wanted != nullptr && !(scene_.output.*row.wanted)) continue;
+            const std::string begin = row.begin;
+            const bool whole = begin.size() == 1 || begin == "tau";
+            known = known || (whole ? layers[i].name == begin
+                                    : layers[i].name.compare(0, begin.size(), begin) == 0);
+            list += (list.empty() ? "" : ", ") + begin + (begin.back() == '.' ? "R" : "");
+        }
+        if (!known)
+            return unknown_layer(layers[i].name, i,
+                                 list +
+                                     "; and what output.layers of the scene adds where its host "
+                                     "asked for layers");
+    }
+    return Status::ok();
+}
 
 Status Session::show_layers(const FrameView& view, const std::vector<LayerTarget>& layers,
                             const Planes& planes) {
@@ -33,7 +74,11 @@ Status Session::show_layers(const FrameView& view, const std::vector<LayerTarget
     std::vector<const Channel*> from;
     for (std::size_t i = 0; i < layers.size(); ++i) {
         from.push_back(image.find(layers[i].name.c_str()));
-        if (from.back() == nullptr) return unknown_layer(layers[i].name, i, image);
+        if (from.back() != nullptr) continue;
+        std::string known;
+        for (const Channel& channel : image.channels)
+            known += (known.empty() ? "" : ", ") + channel.name;
+        return unknown_layer(layers[i].name, i, known);
     }
     const std::size_t width = std::size_t(image.width);
     for (std::size_t i = 0; i < layers.size(); ++i)

@@ -2,7 +2,10 @@
 // Other optics of a live session's media: what else the session holds stays.
 // in: media of a scene -> out: a world of them and the method over it, or the session as it was.
 // docs/embedding.md, "What may change"
+#include <filesystem>
+
 #include "platform/fp_mode.h"
+#include "platform/fs_path.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/session/session.h"
@@ -27,8 +30,15 @@ const Volume* kept_cells(const Scene& scene, const World& world) {
     return world.unrefined.density.empty() ? nullptr : &world.unrefined;
 }
 
+/// What made `world` asked of it.
+WorldUse use_of(const World& world) {
+    if (world.direct_sky) return WorldUse::kSkyInPlace;
+    if (world.shows_particles) return WorldUse::kParticles;
+    return world.data_cells ? WorldUse::kDataCells : WorldUse::kGrid;
+}
+
 /// The world of `scene`, whose densities are those of `base`.
-Status vary_world(const Scene& scene, WorldUse use, const World& base, const Context& context,
+Status vary_world(const Scene& scene, const World& base, const Context& context,
                   WeatherFiles* weather, std::shared_ptr<World>& made) {
     HostMedia given;
     given.weather = weather;
@@ -41,7 +51,12 @@ Status vary_world(const Scene& scene, WorldUse use, const World& base, const Con
         return refuse("densities of a host's memory, which the world keeps for one medium alone",
                       "another world");
     }
-    PILEUS_TRY(outline_own_world(scene, use, given, context, made));
+    PILEUS_TRY(outline_own_world(scene, use_of(base), given, context, made));
+    PILEUS_TRY(check_limit(
+        context.limits, LimitId::kMemory,
+        bytes_of_world(base) + bytes_of(made->direct_sky ? 0 : std::uint64_t(made->medium.count),
+                                        voxel_count(made->medium.grid) * sizeof(float)),
+        scene.file));
     // What other media begin from is the first world.
     made->given = false;
     PILEUS_TRY(load_world(scene, given, context, *made));
@@ -51,6 +66,32 @@ Status vary_world(const Scene& scene, WorldUse use, const World& base, const Con
     if (same) return Status::ok();
     return refuse("one without extinction leaves another box to the others", "another world");
 }
+
+/// Of a medium of `from`, for one of `to`, whose files may begin in another folder.
+MediumOptics optics_for(const MediumSettings& medium, const Scene& from, const Scene& to) {
+    MediumOptics optics = medium.optics;
+    std::string& file = optics.phase.file;
+    if (!file.empty() && from.directory != to.directory)
+        file = path_text(std::filesystem::absolute(path_of(scene_path(from.directory, file))));
+    return optics;
+}
+
+/// Puts back what was swapped, however a function ends, unless it is kept.
+template <class Back>
+class Undo {
+public:
+    explicit Undo(Back back) : back_(std::move(back)) {}
+    Undo(const Undo&) = delete;
+    Undo& operator=(const Undo&) = delete;
+    ~Undo() {
+        if (!kept_) back_();
+    }
+    void keep() { kept_ = true; }
+
+private:
+    Back back_;
+    bool kept_ = false;
+};
 
 }  // namespace
 
@@ -64,54 +105,62 @@ Status Session::set_media(const Scene& given) {
                           std::to_string(count),
                       "as many");
     Scene next = scene_;
+    // Checked with the view that the session began with: what a host set since is checked by
+    // itself.
+    static_cast<FrameState&>(next) = *opened_;
     bool same = true;
     for (std::size_t i = 0; i < count; ++i) {
-        same = same && next.media[i].optics == given.media[i].optics;
-        next.media[i].optics = given.media[i].optics;
+        MediumOptics optics = optics_for(given.media[i], given, scene_);
+        same = same && next.media[i].optics == optics;
+        next.media[i].optics = std::move(optics);
     }
     if (same) return Status::ok();
     PILEUS_TRY(check_changed("medium", next, [](Scene&) {}));
     PILEUS_TRY(row_.check(next, options_.budget));
     if (base_world_ == nullptr) base_world_ = scenery_.world;
     std::shared_ptr<World> made;
-    PILEUS_TRY(vary_world(next, row_.world, *base_world_, context_, scenery_.weather.get(), made));
-    std::shared_ptr<const World> world = std::move(made);
-    return take_world(next.media, world);
+    PILEUS_TRY(vary_world(next, *base_world_, context_, scenery_.weather.get(), made));
+    return take_world(next.media, std::move(made));
 }
 
 void Session::keep_opened() {
     opened_ = std::make_shared<const FrameState>(static_cast<const FrameState&>(scene_));
 }
 
-/// Both are swapped for the session's, or stay as they are.
-Status Session::take_world(std::vector<MediumSettings>& media,
-                           std::shared_ptr<const World>& world) {
-    const Plan before = plan_;
-    const FrameState now = scene_;
-    scene_.media.swap(media);
-    scenery_.world.swap(world);
-    MadeMethod method = row_.make({scene_, options_.budget, true});
-    std::swap(made_, method);
+/// Both are the session's afterwards, or it is as it was.
+Status Session::take_world(std::vector<MediumSettings>& media, std::shared_ptr<const World> world) {
+    Plan plan = plan_;
+    FrameState now = scene_;
+    Lighting lighting = scenery_.lighting;
+    MadeMethod method;
+    const auto swap_world = [&] {
+        scene_.media.swap(media);
+        scenery_.world.swap(world);
+    };
+    swap_world();
+    Undo undo([&] {
+        swap_world();
+        if (method.method != nullptr) std::swap(made_, method);
+        plan_ = std::move(plan);
+        static_cast<FrameState&>(scene_) = std::move(now);
+        scenery_.lighting = std::move(lighting);
+    });
+    MadeMethod fresh = row_.make({scene_, options_.budget, true});
+    method = std::exchange(made_, std::move(fresh));
     // What a method chooses by camera and lights it chooses for those that the session began with.
     static_cast<FrameState&>(scene_) = *opened_;
     scenery_.light(0);
-    Status status = make_plan(made_, context_, scenery_, plan_);
-    if (status) status = made_.method->prepare(context_, scenery_.view(0));
-    if (status) status = make_plan(made_, context_, scenery_, plan_);
-    if (status) status = made_.method->set_limits(work_);
-    static_cast<FrameState&>(scene_) = now;
-    if (!status) {
-        scene_.media.swap(media);
-        scenery_.world.swap(world);
-        std::swap(made_, method);
-        scenery_.light(host_.number);
-        plan_ = before;
-        return status;
-    }
+    PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
+    PILEUS_TRY(made_.method->prepare(context_, scenery_.view(0)));
+    PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
+    PILEUS_TRY(made_.method->set_limits(work_));
+    undo.keep();
+    static_cast<FrameState&>(scene_) = std::move(now);
     last_.planes = nullptr;
     late_ = LateRows{};
     fading_.reset();
     report_.plan = plan_;
+    report_.errors = {};
     changed_.stale = true;
     return Status::ok();
 }

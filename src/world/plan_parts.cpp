@@ -25,6 +25,8 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
                       std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
                       MemoryTable& t) {
     add(t, arrays::density(grid));
+    t.add("density as it was given", Stage::kDensity, Stage::kWrite,
+          bytes_of(source.unrefined_voxels, sizeof(float)));
     add(t, arrays::detail_tile(source.tile_cells));
     if (source.emitters > 0)
         add(t, arrays::emitted_below(bytes_of(source.emitters, voxel_count(grid))));

@@ -50,8 +50,11 @@ Status refine_cells(const Context& context, World& world) {
         keep_larger({"density before its finer cells",
                      bytes_of(4, voxel_count(medium.grid), std::uint64_t(medium.count)), 0},
                     world.source.making);
-        if (world.given && medium.count == 1 && !medium.volume.density.empty())
-            PILEUS_TRY(copy_cells(medium.volume, world.unrefined));
+        if (world.given && medium.count == 1) {
+            world.source.unrefined_voxels = voxel_count(medium.grid);
+            if (!medium.volume.density.empty())
+                PILEUS_TRY(copy_cells(medium.volume, world.unrefined));
+        }
         PILEUS_TRY(refine_medium(factor, context.threads, medium));
     }
     PILEUS_TRY(make_emitters(medium));

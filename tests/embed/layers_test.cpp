@@ -229,3 +229,13 @@ TEST_CASE("layers: an error needs two samples, or a full ring") {
     host.step(1);
     CHECK(draw_layer(host, "error.G", values.data(), 0) == PILEUS_OK);
 }
+
+TEST_CASE("layers: a name that is not there leaves the pictures after it as they are") {
+    const Overrides sets{"method.name=raymarch", "raymarch.steps=24", "raymarch.temporal=4"};
+    Hosted one(kSmallCumulus, sets), other(kSmallCumulus, sets);
+    std::vector<float> values(64 * 64);
+    for (int frame = 0; frame < 3; ++frame) {
+        CHECK(draw_layer(one, "tua", values.data(), 0) == PILEUS_ERROR_INPUT);
+        CHECK(one.hash() == other.hash());
+    }
+}

@@ -3,6 +3,7 @@
 // in: every method, kinds of media -> out: hashes against new worlds'; refusals.
 // docs/embedding.md, "What may change"
 #include "tests/embed/host_harness.h"
+#include "tests/io/temp_folder.h"
 
 using namespace host_test;
 using render_test::kSmallCumulus;
@@ -193,4 +194,58 @@ TEST_CASE("media: what cannot be is refused in a line and changes nothing") {
     CHECK(set_media(live, kSmallCumulus, {}) == PILEUS_OK);
     CHECK(live.stats().prepared == prepared);
     CHECK(live.hash() == first);
+}
+
+TEST_CASE("media: of a session whose host turned them, lit from any side") {
+    const Overrides method{"method.name=raymarch", "raymarch.steps=24"};
+    const auto turned = [&](Hosted& host) {
+        host.sun(300, 40);
+        auto place = cleared<pileus_placement>();
+        place.yaw_deg = 90;
+        host.check(pileus_session_set_placement(host.session.get(), &place, &host.out.error));
+        return host.hash();
+    };
+    Hosted live(kSmallCumulus, method), fresh(kSmallCumulus, joined(method, kOptics[0]));
+    const std::string first = turned(live);
+    REQUIRE_MESSAGE(set_media(live, kSmallCumulus, joined(method, kOptics[0])) == PILEUS_OK,
+                    live.out.line());
+    const std::string changed = live.hash();
+    CHECK(changed == turned(fresh));
+    CHECK(changed != first);
+}
+
+TEST_CASE("media: a phase function's file lies beside its own scene") {
+    const pileus::test::TempFolder here, there;
+    here.put("p.txt", "0 1\n90 1\n180 1\n");
+    there.put("p.txt", "0 9\n20 1\n180 0.2\n");
+    const Overrides sets{"method.name=raymarch", "raymarch.steps=24",
+                         "medium.0.phase={type=\"table\", file=\"p.txt\"}"};
+    const auto open = [&](const std::string& folder) {
+        std::vector<const char*> texts;
+        for (const std::string& o : sets) texts.push_back(o.c_str());
+        pileus_scene* scene = nullptr;
+        Outcome out;
+        REQUIRE_MESSAGE(
+            pileus_scene_parse(kSmallCumulus, folder.c_str(), texts.data(),
+                               std::uint32_t(texts.size()), &scene, &out.error) == PILEUS_OK,
+            out.line());
+        return SceneHandle(scene);
+    };
+    const SceneHandle one = open(here.path("")), other = open(there.path(""));
+    const auto session_of = [](const SceneHandle& scene, Hosted& host) {
+        pileus_world* world = nullptr;
+        host.check(pileus_world_create(scene.get(), nullptr, nullptr, 0, &world, &host.out.error));
+        host.session.reset();
+        host.world.reset(world);
+        pileus_session* session = nullptr;
+        host.check(pileus_session_create(world, scene.get(), nullptr, &session, &host.out.error));
+        host.session.reset(session);
+        return host.hash();
+    };
+    Hosted live(kSmallCumulus, {"method.name=raymarch"}),
+        fresh(kSmallCumulus, {"method.name=raymarch"});
+    const std::string first = session_of(one, live), wanted = session_of(other, fresh);
+    CHECK(first != wanted);
+    live.check(pileus_session_set_media(live.session.get(), other.get(), &live.out.error));
+    CHECK(live.hash() == wanted);
 }

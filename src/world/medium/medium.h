@@ -107,9 +107,10 @@ struct MediumSource {
     std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
     std::uint64_t mixing_bytes = 0;   ///< scratch of that
     int tile_cells = 0;               ///< of a tile of detail that is kept; 0: none
-    std::vector<DensityWork> making;  ///< of densities that the program makes
-    std::uint64_t emitters = 0;       ///< media that photons begin in
-    double mean_density = -1;         ///< over the box; below 0: known only from the values
+    std::uint64_t unrefined_voxels = 0;  ///< of a host's density that is kept beside finer cells
+    std::vector<DensityWork> making;     ///< of densities that the program makes
+    std::uint64_t emitters = 0;          ///< media that photons begin in
+    double mean_density = -1;            ///< over the box; below 0: known only from the values
 };
 
 /// kLimit: a side or the product over the limits; `where` opens the line.

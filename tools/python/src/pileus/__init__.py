@@ -12,10 +12,11 @@ from ._compare import Figures, compare
 from ._core import orbit
 from ._errors import BadInput, CheckFailed, Error, Io, Limit, PictureWarning
 from ._scene import Scene, World, override_texts
-from ._session import Picture, Progress, Session, Stats
+from ._session import LayeredPicture, Picture, Progress, Session, Stats
 
+Light = Progress  # an older name
 __version__ = _core.version
-__all__ = ["BadInput", "CheckFailed", "Error", "Figures", "Io", "Limit", "Picture",
+__all__ = ["BadInput", "CheckFailed", "Error", "Figures", "Io", "LayeredPicture", "Light", "Limit", "Picture",
            "PictureWarning", "Progress", "Scene", "Session", "Stats", "World", "compare", "orbit", "render"]
 
 

@@ -46,12 +46,20 @@ class Stats(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """What render gives where depth, hash or layers are asked for."""
+    """What render gives where depth or hash is asked for."""
 
     colour: Optional[np.ndarray]
     depth: Optional[np.ndarray]
     hash: Optional[str]  # 16 hex digits, as of `pileus hash`
-    layers: Optional[dict] = None  # arrays [height, width] by their names
+
+
+class LayeredPicture(NamedTuple):
+    """What render gives where layers are asked for."""
+
+    colour: Optional[np.ndarray]
+    depth: Optional[np.ndarray]
+    hash: Optional[str]
+    layers: dict  # arrays [height, width] by their names
 
 
 def _choice(name, value, table):
@@ -238,7 +246,7 @@ class Session:
         depth: True, or an array [height, width] of float32. hash: True for the picture's.
         bottom_up: the first row is the picture's lowest.
         layers: names of channels (docs/formats.md, "Pictures out"), "R" or "tau".
-        Returns colour; where depth, hash or layers are asked for, a Picture.
+        Returns colour; where depth or hash is asked for, a Picture; where layers, a LayeredPicture.
         """
         mode = _choice("blend", blend, _BLENDS)
         width, height = self.size
@@ -262,7 +270,8 @@ class Session:
             warnings.warn(line, PictureWarning, stacklevel=2)
         if depth is None and not hash and not planes:
             return colour
-        return Picture(colour, depth, None if bits is None else f"{bits:016x}", planes or None)
+        picture = Picture(colour, depth, None if bits is None else f"{bits:016x}")
+        return LayeredPicture(*picture, planes) if planes else picture
 
     @staticmethod
     def _format_of(colour, name):
