@@ -234,6 +234,22 @@ class Settings(unittest.TestCase):
         session.set_depth(np.ones((14, 48))[:, ::2])
         self.assertEqual(session.stats.prepared, 1)
 
+    def test_layers_and_media(self):
+        layers = {"output.layers": ["depth", "optical_depth", "transmittance"], **RAYMARCH}
+        session = pileus.Session(pileus.World(pileus.Scene(CUMULUS, layers)), layers=True)
+        first = session.render(layers=["tau", "T", "A"], hash=True)
+        self.assertEqual(first.hash, session.render(hash=True).hash)
+        np.testing.assert_allclose(first.layers["T"], np.exp(-first.layers["tau"]), atol=1e-4)
+        np.testing.assert_allclose(first.layers["A"], 1 - first.layers["T"], atol=1e-4)
+        with self.assertRaisesRegex(pileus.BadInput, "frame.layers"):
+            session.render(layers=["sun.R"])
+        thin = pileus.Scene(CUMULUS, {"medium.0.extinction_per_m": 0.001, **layers})
+        session.set_media(thin)
+        wanted = pileus.Session(pileus.World(thin)).render(hash=True).hash
+        self.assertEqual(session.render(hash=True).hash, wanted)
+        with self.assertWarns(DeprecationWarning):
+            session.set_lights([])
+
     def test_sky_maps(self):
         scene = pileus.Scene(CUMULUS.replace("radiance = [0.0625, 0.125, 0.25]",
                                              "radiance = [0, 0, 0]"), {"method.name": "path"})
