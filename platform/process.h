@@ -19,9 +19,9 @@ struct ProcessResult {
     long long peak_bytes = 0;      ///< highest resident size
 };
 
-/// Holds back SIGINT, SIGTERM and SIGHUP, on Windows what the console's handler is told, while it
-/// lives, so that work can end in order; when it goes, a signal that came ends the program as if it
-/// came then. One at a time, on one thread.
+/// Holds back SIGINT, SIGTERM and SIGHUP, on Windows the console's control events, while it lives,
+/// so that work can end in order; when it goes, a signal that came ends the program as if it came
+/// then. One at a time, on one thread.
 class InterruptHold {
 public:
     InterruptHold();

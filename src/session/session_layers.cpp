@@ -2,6 +2,9 @@
 // Layers of a live session's picture, in the host's memory.
 // in: a picture's planes, channels by their names -> out: their floats. docs/formats.md, "Pictures
 // out"; docs/embedding.md, "Layers"
+#include <algorithm>
+#include <cstring>
+
 #include "src/picture/finish_frame.h"
 #include "src/session/deliver.h"
 #include "src/session/session.h"
@@ -9,29 +12,39 @@
 namespace pileus {
 namespace {
 
-/// Names of channels, or how they begin, and what has them made; null: every picture has them.
+/// Names of channels, those that begin a name marked, and what has them made; null: every picture
+/// has them.
 struct LayerName {
-    const char* begin;
+    const char* name;
     bool OutputSettings::*wanted;
+    bool begins = false;
+
+    bool fits(const std::string& text) const {
+        return begins ? text.compare(0, std::strlen(name), name) == 0 : text == name;
+    }
 };
 constexpr LayerName kNames[] = {{"R", nullptr},
                                 {"G", nullptr},
                                 {"B", nullptr},
                                 {"A", nullptr},
                                 {"Z", &OutputSettings::layer_depth},
-                                {"cloud.", &OutputSettings::layer_cloud},
+                                {"cloud.", &OutputSettings::layer_cloud, true},
                                 {"tau", &OutputSettings::layer_optical_depth},
                                 {"T", &OutputSettings::layer_transmittance},
-                                {"sun.", &OutputSettings::layer_light},
-                                {"sky.", &OutputSettings::layer_light},
-                                {"lamp", &OutputSettings::layer_light},
-                                {"emission.", &OutputSettings::layer_light},
-                                {"single.", &OutputSettings::layer_order},
-                                {"multiple.", &OutputSettings::layer_order},
-                                {"reflectance.", &OutputSettings::layer_reflectance},
+                                {"sun.", &OutputSettings::layer_light, true},
+                                {"sky.", &OutputSettings::layer_light, true},
+                                {"lamp", &OutputSettings::layer_light, true},
+                                {"emission.", &OutputSettings::layer_light, true},
+                                {"single.", &OutputSettings::layer_order, true},
+                                {"multiple.", &OutputSettings::layer_order, true},
+                                {"reflectance.", &OutputSettings::layer_reflectance, true},
                                 {"shadow", &OutputSettings::layer_shadow},
                                 {"occlusion", &OutputSettings::layer_occlusion},
-                                {"error.", &OutputSettings::layer_error}};
+                                {"error.", &OutputSettings::layer_error, true}};
+
+bool is_made(const LayerName& row, const OutputSettings& output) {
+    return row.wanted == nullptr || output.*row.wanted;
+}
 
 Status unknown_layer(const std::string& name, std::size_t at, const std::string& known) {
     return Status::bad_input("frame.layers[" + std::to_string(at) + "].name: \"" + name +
@@ -42,21 +55,18 @@ Status unknown_layer(const std::string& name, std::size_t at, const std::string&
 
 Status Session::check_layers(const std::vector<LayerTarget>& layers) const {
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        bool known = false;
+        const std::string& name = layers[i].name;
+        const bool known = std::any_of(
+            std::begin(kNames), std::end(kNames),
+            [&](const LayerName& row) { return is_made(row, scene_.output) && row.fits(name); });
+        if (known) continue;
         std::string list;
-        for (const LayerName& row : kNames) {
-            if (row.wanted != nullptr && !(scene_.output.*row.wanted)) continue;
-            const std::string begin = row.begin;
-            const bool whole = begin.size() == 1 || begin == "tau";
-            known = known || (whole ? layers[i].name == begin
-                                    : layers[i].name.compare(0, begin.size(), begin) == 0);
-            list += (list.empty() ? "" : ", ") + begin + (begin.back() == '.' ? "R" : "");
-        }
-        if (!known)
-            return unknown_layer(layers[i].name, i,
-                                 list +
-                                     "; and what output.layers of the scene adds where its host "
-                                     "asked for layers");
+        for (const LayerName& row : kNames)
+            if (is_made(row, scene_.output))
+                list += std::string(row.name) + (row.begins ? "..., " : ", ");
+        return unknown_layer(
+            name, i,
+            list + "and what output.layers of the scene adds where its host asked for layers");
     }
     return Status::ok();
 }

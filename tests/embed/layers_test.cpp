@@ -4,30 +4,13 @@
 // docs/embedding.md, "Layers"
 #include <algorithm>
 
-#include "tests/embed/host_harness.h"
+#include "tests/embed/settings_rows.h"
 
 using namespace host_test;
 using render_test::kSmallCumulus;
+using settings_test::kParticles;
 
 namespace {
-
-constexpr const char* kParticles = R"(
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-resolution = [24, 14]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.0625, 0.125, 0.25]
-[[medium]]
-density = "procedural:particle-cumulus"
-bounds_m = [[-768, -768, 512], [768, 768, 1536]]
-resolution = [12, 12, 8]
-extinction_per_m = 0.0125
-particle_cumulus = { particles = 200 }
-)";
 
 struct Row {
     const char* name;

@@ -2,11 +2,13 @@
 // Optics of media that a live session takes from another scene: as a session of a new world of it.
 // in: every method, kinds of media -> out: hashes against new worlds'; refusals.
 // docs/embedding.md, "What may change"
-#include "tests/embed/host_harness.h"
+#include "tests/embed/settings_rows.h"
 #include "tests/io/temp_folder.h"
 
 using namespace host_test;
 using render_test::kSmallCumulus;
+using settings_test::kParticles;
+using settings_test::kSkyInPlace;
 
 namespace {
 
@@ -116,48 +118,15 @@ bounds_m = [[-768, -768, 512], [768, 768, 1536]]
 resolution = [2, 2, 2]
 extinction_per_m = 0.0005
 )";
-    const std::string sky = R"(
-[camera]
-position_m = [0, 0, 900]
-target_m = [0, 3000, 1300]
-resolution = [20, 12]
-[sun]
-azimuth_deg = 120
-elevation_deg = 30
-[sky]
-radiance = [0.05, 0.07, 0.11]
-[ground]
-[[medium]]
-density = "procedural:sky"
-resolution = [32, 32, 8]
-sky = { type = "cumulus", coverage = 0.6, size = 32 }
-)";
-    const std::string particles = R"(
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-resolution = [24, 14]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.0625, 0.125, 0.25]
-[[medium]]
-density = "procedural:particle-cumulus"
-bounds_m = [[-768, -768, 512], [768, 768, 1536]]
-resolution = [12, 12, 8]
-extinction_per_m = 0.0125
-particle_cumulus = { particles = 200 }
-)";
     struct Row {
-        const std::string& text;
+        std::string text;
         Overrides method;
     };
     const Row rows[] = {
         {second, {"method.name=raymarch", "raymarch.steps=24"}},
         {second, {"method.name=path", "path.samples_per_pixel=2"}},
-        {sky, {"method.name=raymarch", "raymarch.steps=24"}},
-        {particles, {"method.name=particles"}},
+        {kSkyInPlace, {"method.name=raymarch", "raymarch.steps=24", "camera.resolution=[20, 12]"}},
+        {kParticles, {"method.name=particles"}},
     };
     for (const Row& row : rows) {
         CAPTURE(row.method[0]);

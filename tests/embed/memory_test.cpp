@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "tests/embed/host_harness.h"
+#include "tests/embed/settings_rows.h"
 #include "tests/support/long_tests.h"
 
 using namespace host_test;
@@ -226,26 +226,6 @@ struct Row {
     long most = 1000;  ///< allocations that end; a step between them where there are more
 };
 
-constexpr const char* kSkyInPlace = R"(
-[camera]
-position_m = [0, 0, 900]
-target_m = [0, 3000, 1300]
-[sun]
-azimuth_deg = 60
-elevation_deg = 30
-[sky]
-radiance = [0.05, 0.07, 0.11]
-[ground]
-[[medium]]
-density = "procedural:sky"
-resolution = [32, 32, 8]
-sky = { type = "cumulus", coverage = 0.6, size = 32 }
-[raymarch]
-light_steps = 3
-light_first_step_m = 60
-light_growth = 2
-)";
-
 constexpr const char* kSpheres = R"(
 [camera]
 position_m = [0, -1500, 700]
@@ -296,7 +276,7 @@ const Row kRows[] = {
     {"", {"method.name=raymarch", "raymarch.jitter=blue-noise"}},
     {"", {"method.name=raymarch", "raymarch.temporal=4", "raymarch.scattering=octaves"}},
     {kLamp, {"method.name=raymarch", "raymarch.scale=4"}},
-    {kSkyInPlace, {"method.name=raymarch"}, 8},
+    {settings_test::kSkyInPlace, {"method.name=raymarch", "sun.azimuth_deg=60"}, 8},
     {kAir, {"method.name=raymarch"}, 15},
     {"", {"method.name=optical-depth"}},
     {"",

@@ -28,6 +28,25 @@ elevation_deg = 20
 irradiance = [0.1, 0.2, 0.3]
 )";
 
+/// A few particles over the grid that casts their shadows.
+constexpr const char* kParticles = R"(
+[camera]
+position_m = [16, -4000, 256]
+target_m = [0, 0, 1024]
+resolution = [24, 14]
+[sun]
+azimuth_deg = 120
+elevation_deg = 35
+[sky]
+radiance = [0.0625, 0.125, 0.25]
+[[medium]]
+density = "procedural:particle-cumulus"
+bounds_m = [[-768, -768, 512], [768, 768, 1536]]
+resolution = [12, 12, 8]
+extinction_per_m = 0.0125
+particle_cumulus = { particles = 200 }
+)";
+
 /// A layer of clouds without end, looked up where rays are.
 constexpr const char* kSkyInPlace = R"(
 [camera]

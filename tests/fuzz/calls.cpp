@@ -22,7 +22,7 @@ constexpr const char* kMethods[] = {"raymarch", "optical-depth", "path", "collec
                                     "photon-grid"};
 constexpr std::uint32_t kPixels = 64;  ///< that buffers have room for
 constexpr int kSlots = 2;
-constexpr int kMostCalls = 48;
+constexpr int kMaxCalls = 48;
 
 class Calls : fuzz::Arguments {
 public:
@@ -368,6 +368,6 @@ void Calls::next() {
 
 int fuzz::calls(const std::uint8_t* data, std::size_t size) {
     Calls calls(data, size);
-    for (int i = 0; i < kMostCalls && !calls.done(); ++i) calls.next();
+    for (int i = 0; i < kMaxCalls && !calls.done(); ++i) calls.next();
     return 0;
 }
