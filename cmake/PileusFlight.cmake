@@ -32,7 +32,7 @@ add_library(pileus_flight_objects OBJECT ${flight_sources} kernels_cpu/isa/dispa
 target_include_directories(pileus_flight_objects BEFORE PRIVATE "${PROJECT_SOURCE_DIR}/src/flight/bare")
 target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
 target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
-    PILEUS_VERSION_TEXT="${PROJECT_VERSION}" ${PILEUS_ISA_DEFINITIONS})
+    PILEUS_VERSION_TEXT="${PILEUS_VERSION}" ${PILEUS_ISA_DEFINITIONS})
 if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
     target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_ONE_THREAD=1)
 endif()
@@ -62,14 +62,14 @@ set_source_files_properties(${flight_rows} PROPERTIES SKIP_UNITY_BUILD_INCLUSION
 pileus_compile_together(pileus_flight_objects 12 flight)
 
 # Kernels once more, of the groups (kernels_cpu/isa/kernel_list.h) that the chosen methods call. Solid meshes
-# and marched detail are in no flight; an image of solids is what PathSolids meet.
+# and marched detail are in no flight; an image of solids is what PathFull meets.
 set(groups_of_collectors Photons March Billboards Upsampling Lamps)
 set(groups_of_photon-grid Photons Cells March Upsampling Lamps)
-set(groups_of_path Path PathSolids PathGuided PathLamps March)
+set(groups_of_path Path PathFull March)
 set(groups_of_raymarch Raymarch Sky Upsampling Sweep Lamps)
 set(groups_of_optical-depth Raymarch Sweep Lamps)
 set(groups_of_particles Particles Sweep Lamps)
-set(groups_of_lights PathLamps Lamps)
+set(groups_of_lights Lamps)
 set(groups_of_atmosphere Air)
 set(flight_groups Always Air)
 foreach(method IN LISTS flight_methods)
@@ -93,8 +93,10 @@ foreach(group IN LISTS kernel_groups)
     endif()
 endforeach()
 target_compile_definitions(pileus_flight_objects PRIVATE ${flight_parts})
-# For size all of them as one file: what two groups call is there once, a third less of them.
+# For size all of them as one file: what two groups call is there once, a third less of them; and paths of every
+# kind are traced by one kernel, another ninth of the library.
 if(CMAKE_BUILD_TYPE STREQUAL "MinSizeRel" AND NOT PILEUS_COVERAGE)
+    list(APPEND flight_parts PILEUS_ONE_PATH_KERNEL)
     set(headers)
     set(groups)
     foreach(source IN LISTS flight_kernels)

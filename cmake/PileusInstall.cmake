@@ -13,8 +13,7 @@ set(libraries pileus_static)
 set(PILEUS_HAS_SHARED FALSE)
 # A foreign machine's programs are static, but for Windows, and sanitizers belong to programs.
 if(PILEUS_SHARED AND (WIN32 OR NOT CMAKE_CROSSCOMPILING) AND NOT PILEUS_SANITIZE)
-    # Before 1.0 a minor version may change what programs are linked with.
-    set(PILEUS_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    set(PILEUS_SOVERSION ${PROJECT_VERSION_MAJOR})
     add_library(pileus_shared SHARED ${objects})
     target_link_libraries(pileus_shared PRIVATE ${PILEUS_LINK_LIBRARIES})
     target_link_options(pileus_shared PRIVATE -Wl,--no-undefined -Wl,--gc-sections)
@@ -87,7 +86,7 @@ set(package "${CMAKE_INSTALL_LIBDIR}/cmake/pileus")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/pileusConfig.cmake.in"
     "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake" INSTALL_DESTINATION "${package}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
-    COMPATIBILITY SameMinorVersion)
+    COMPATIBILITY SameMajorVersion)
 # The tree may be moved.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY
     "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE PILEUS_PC_UP)

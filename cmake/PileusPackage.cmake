@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages by cpack: the program, the shared library, what programs are built with.
-# in: components program, library, dev -> out: pileus_*.deb, libpileus0.21_*.deb (by the soname), libpileus-dev_*.deb
+# in: components program, library, dev -> out: pileus_*.deb, libpileus1_*.deb (by the soname), libpileus-dev_*.deb
 # docs/packages.md; tools/release builds and tries them. Libraries lie where Debian has them with -DCMAKE_INSTALL_PREFIX=/usr.
 set(package_program pileus)
 set(package_library libpileus${PILEUS_SOVERSION})
@@ -21,9 +21,11 @@ set(CPACK_PACKAGE_VENDOR pileus)
 set(CPACK_PACKAGE_CONTACT "pileus <pileus@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "physically based pictures of clouds and other participating media")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
-set(CPACK_PACKAGE_FILE_NAME "pileus-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}")
+set(CPACK_PACKAGE_FILE_NAME "pileus-${PILEUS_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB)
+# What Debian sorts before the release.
+string(REPLACE "-" "~" CPACK_DEBIAN_PACKAGE_VERSION "${PILEUS_VERSION}")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
@@ -45,7 +47,7 @@ foreach(row "OPENEXR libopenexr-dev" "PNG libpng-dev" "ZLIB zlib1g-dev" "BLOSC l
     endif()
 endforeach()
 if(PILEUS_HAS_SHARED)
-    list(PREPEND dev_needs "${package_library} (= ${PROJECT_VERSION})")
+    list(PREPEND dev_needs "${package_library} (= ${CPACK_DEBIAN_PACKAGE_VERSION})")
 endif()
 list(JOIN dev_needs ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "pictures of clouds: the program")

@@ -3,7 +3,7 @@
 # in: PILEUS_<LIBRARY>, PILEUS_WITH_<LIBRARY>, PILEUS_ISA_NAMES -> out: a table, features.txt
 # tools/quickstart and tools/check_objects read features.txt.
 set(features "")
-message(STATUS "pileus ${PROJECT_VERSION}: ${CMAKE_BUILD_TYPE}, ${CMAKE_CXX_COMPILER_ID} "
+message(STATUS "pileus ${PILEUS_VERSION}: ${CMAKE_BUILD_TYPE}, ${CMAKE_CXX_COMPILER_ID} "
     "${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_SYSTEM_PROCESSOR}")
 foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP TIFF OIDN SDL2 OSMESA EGL THREADS OPENMP MPI CUDA TESTS BENCHMARKS)
     if(PILEUS_WITH_${name})

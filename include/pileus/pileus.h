@@ -8,12 +8,12 @@
  * Rules of all functions
  * - A result other than PILEUS_OK leaves outputs as they were; `error`, where not null, then holds
  *   the code and a line for each fault. Nothing is written to stdout or stderr, no signal handler
- * or floating-point mode of yours is changed, nothing is kept outside handles.
+ *   or floating-point mode of yours is changed, nothing is kept outside handles.
  * - Handles are used by one thread at a time; different handles by as many threads as you like. A
  *   world and a scene are read only once made, so that threads share them.
  * - Structs are made by their pileus_*_default(), which has values that are fine as they are. It
  *   marks them with their size: a library that is newer or older than the header reads the part
- * that both know, and structs that were cleared or never written are refused.
+ *   that both know, and structs that were cleared or never written are refused.
  * - Lengths are metres, angles degrees. x points east, y north, z up; an azimuth counts from north
  *   (+y) towards east (+x). Matrices are column-major, as OpenGL and GLM store them.
  * - Pictures are the same bits for any number of threads, on any processor, as the program `pileus`
@@ -40,9 +40,11 @@ extern "C" {
 #endif
 
 /** Of this header; the library's own by pileus_version. */
-#define PILEUS_VERSION_MAJOR 0
-#define PILEUS_VERSION_MINOR 21
+#define PILEUS_VERSION_MAJOR 1
+#define PILEUS_VERSION_MINOR 0
 #define PILEUS_VERSION_PATCH 0
+/** What pileus_version() of the same version returns. */
+#define PILEUS_VERSION_STRING "1.0.0-rc1"
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
 #define PILEUS_API_VERSION 5
@@ -77,7 +79,8 @@ PILEUS_API void pileus_init(void* pileus_struct, uint32_t size);
 /** The same, and then the defaults of struct number `kind`, which pileus_*_default() know. */
 PILEUS_API void pileus_default(uint32_t kind, void* pileus_struct, uint32_t size);
 
-/** "major.minor.patch"; and the PILEUS_API_VERSION that the library was built with. */
+/** "major.minor.patch", before a release with "-rc1" and the like; and the PILEUS_API_VERSION that
+ * the library was built with. */
 PILEUS_API const char* pileus_version(void);
 PILEUS_API uint32_t pileus_api_version(void);
 
@@ -807,7 +810,7 @@ PILEUS_API void pileus_orbit(const double position_m[3], const double target_m[3
 
 /* ---- Old names --------------------------------------------------------------------------- */
 
-/* Those before 1.0, for one version more; PILEUS_NO_OLD_NAMES leaves them out. docs/migration.md */
+/* Those before 1.0, which end with 1.0.0; PILEUS_NO_OLD_NAMES leaves them out. docs/migration.md */
 #ifndef PILEUS_NO_OLD_NAMES
 #define PILEUS_CHECK_FAILED PILEUS_ERROR_CHECK
 #define PILEUS_BAD_INPUT PILEUS_ERROR_INPUT

@@ -8,8 +8,7 @@
 // - Lengths are metres, angles degrees, radiances linear R G B. x points east, y north, z up; an
 //   azimuth counts from north (+y) towards east (+x).
 // - Vectors are taken from any type with members x, y, z, and turn into it: GLM's, your own.
-// Matrices
-//   are anything whose m[column][row] is a number.
+//   Matrices are anything whose m[column][row] is a number.
 // - Owners move and are not copied; an empty one answers every call with kBadInput. One thread uses
 //   a session at a time; scenes and worlds are read only and may be shared.
 // - The namespace is pileus::embed, as the library keeps its own Scene, World and Session in pileus
@@ -974,7 +973,7 @@ inline Vec3 orbit(const Vec3& position_m, const Vec3& target_m, double degrees) 
     return {to[0], to[1], to[2]};
 }
 
-// ---- Old names, for one version more: docs/migration.md ----------------------------------
+// ---- Old names, gone in 1.0.0: docs/migration.md -----------------------------------------
 
 #ifndef PILEUS_NO_OLD_NAMES
 using SceneLight [[deprecated("use Lamp")]] = Lamp;

@@ -23,7 +23,9 @@ class Pileus(ConanFile):
 
     def set_version(self):
         with open(os.path.join(self.recipe_folder, "..", "..", "CMakeLists.txt"), encoding="utf-8") as file:
-            self.version = re.search(r"project\(pileus VERSION ([0-9.]+)", file.read()).group(1)
+            text = file.read()
+        self.version = (re.search(r"project\(pileus VERSION ([0-9.]+)", text).group(1) +
+                        re.search(r'PILEUS_VERSION_SUFFIX "([^"]*)"', text).group(1))
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
