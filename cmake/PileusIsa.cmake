@@ -23,14 +23,6 @@ function(pileus_kernel_groups result)
     set(${result} ${groups} PARENT_SCOPE)
 endfunction()
 
-# -O1 takes half the time of -O3 to compile; the bits are the same at any level. Here for kernels that few
-# scenes call:
-set(rare path_lamps)
-foreach(name IN LISTS rare)
-    set_source_files_properties("${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa_${name}.cpp"
-        PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
-endforeach()
-
 # Checks of each pointer by itself take three quarters of the time to compile kernels with sanitizers.
 # What they would find there the address sanitizer finds, too, or the vector loads themselves.
 add_library(pileus_fewer_checks INTERFACE)
@@ -56,8 +48,8 @@ function(pileus_add_isa name width)
         add_library(pileus_isa_${name} OBJECT ${PILEUS_ISA_SOURCES})
         target_compile_definitions(pileus_isa_${name} PRIVATE
             PILEUS_ISA=${name} PILEUS_WIDTH=${width})
-        # Where x86 and WebAssembly have vectors no program chooses the scalar kernels by itself: they are there to
-        # compare with.
+        # The bits are the same at any level. Where x86 and WebAssembly have vectors no program chooses the scalar
+        # kernels by itself: they are there to compare with, and -O1 compiles in half the time of -O3.
         # Of SSE2 and of WebAssembly -O2 is as fast as -O3, and compiles in two thirds of the time.
         set(level -O3)
         if(name STREQUAL "sse2" OR EMSCRIPTEN)

@@ -42,12 +42,10 @@ PILEUS_RANGE(finish_rows,          FinishParams,        FinishBuffers,         U
 PILEUS_RANGE(pixel_rows,           PixelParams,         PixelBuffers,          Always,       Host)
 PILEUS_RANGE(air_rows,             AirRowsParams,       AirRowsBuffers,        Air,          Device)
 
-// Paths: samples [begin, end) of the launch, each stored by itself. Among solids or an image of
-// them; guided or towards the sun's disc, with and without solids; with lamps or media that emit.
+// Paths: samples [begin, end) of the launch, each stored by itself. Of scenes with lamps, media that
+// emit, solids or an image of them, the sun's disc or paths guided to it: the full one.
 PILEUS_RANGE(trace_paths,          PathParams,          PathBuffers,           Path,         Device)
-PILEUS_RANGE(trace_paths_solid,    PathParams,          PathBuffers,           PathSolids,   Device)
-PILEUS_RANGE(trace_paths_guided,   PathParams,          PathBuffers,           PathGuided,   Device)
-PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           PathLamps,    Device)
+PILEUS_RANGE(trace_paths_full,     PathParams,          PathBuffers,           PathFull,     Device)
 // With PathParams::importance, of one medium under sun and sky.
 PILEUS_RANGE(trace_paths_importance, PathParams,        PathBuffers,           PathImportance, Host)
 

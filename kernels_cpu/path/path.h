@@ -4,7 +4,6 @@
 // docs/path.md; null-collision tracking and the look-up as in docs/methods.md 2.
 // Paths and shadow rays are both walks on one grid, so that lanes of either kind share each step.
 #pragma once
-#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/path/path_start.h"
 
 namespace pileus {
@@ -42,8 +41,10 @@ PILEUS_FN void serve(PathLanes<W, NC, K>& s, FreshPaths<W, K>& fresh, const Path
     PathTally& tally = *b.tally;
     M<W> due = s.alive & lnot(s.alive);
     if constexpr (kLamps<K>) {
-        due = gather_lamps(s, k);
-        due = due | begin_near(s, k);
+        if (minds_lamps<K>(k)) {
+            due = gather_lamps(s, k);
+            due = due | begin_near(s, k);
+        }
     }
     due = due | s.lit;
     if (any(s.lit)) gather_light(s, k, s.lit);
@@ -201,41 +202,26 @@ PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::
     }
 }
 
-template <int W, int K = 0>
+/// Paths of every scene. Grey media have the same numbers in all of their channels.
+template <int W>
+PILEUS_FN void trace_paths_full(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
+                                std::uint32_t end) {
+    constexpr int kAll = kAmongSolids | kSeekingSun | (kLights ? kLitByLamps : 0);
+    trace_path_lanes<W, 3, kAll>(k, b, begin, end);
+}
+
+/// Those of scenes with no more than media, sun, sky and ground: needs_full() is false.
+template <int W>
 PILEUS_FN void trace_paths(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                            std::uint32_t end) {
+#ifdef PILEUS_ONE_PATH_KERNEL
+    trace_paths_full<W>(k, b, begin, end);
+#else
     if (k.channels == 1)
-        trace_path_lanes<W, 1, K>(k, b, begin, end);
+        trace_path_lanes<W, 1, 0>(k, b, begin, end);
     else
-        trace_path_lanes<W, 3, K>(k, b, begin, end);
-}
-
-template <int W>
-PILEUS_FN void trace_paths_solid(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
-                                 std::uint32_t end) {
-    trace_paths<W, kAmongSolids>(k, b, begin, end);
-}
-
-/// As trace_paths, for all that needs a kernel of its own: guided paths, the sun's disc. Devices
-/// know no solids.
-template <int W>
-PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
-                                  std::uint32_t end) {
-#ifndef __CUDACC__
-    if (has_meshes(k.solids) || k.camera_depth != nullptr)
-        return trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
+        trace_path_lanes<W, 3, 0>(k, b, begin, end);
 #endif
-    trace_paths<W, kSeekingSun>(k, b, begin, end);
-}
-
-/// As trace_paths_guided, for scenes with lamps, or with media that emit.
-template <int W>
-PILEUS_FN void trace_paths_lamps(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
-                                 std::uint32_t end) {
-    if (has_meshes(k.solids) || k.camera_depth != nullptr)
-        trace_paths<W, kAmongSolids | kSeekingSun | kLitByLamps>(k, b, begin, end);
-    else
-        trace_paths<W, kSeekingSun | kLitByLamps>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

@@ -70,6 +70,7 @@ template <int W, int NC, int K, class Density>
 PILEUS_FN void seek_sun(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, Density density) {
     using T = F<W>;
     constexpr float kSteps = 0x1p16f;
+    if (!minds_sun<K>(k)) return;
     // Part of the disc may have set.
     if (k.ground != 0) s.shade = select(m & lnot(s.to_sun.z > 0.0f), T{}, s.shade);
     if (k.guide.on == 0) return;

@@ -165,6 +165,7 @@ template <int W, int NC, int K, class Facing, class Value>
 PILEUS_FN void seek_lamps(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, float sphere,
                           Facing facing, Value value) {
     using T = F<W>;
+    if (!minds_lamps<K>(k)) return;
     if constexpr (kGuided<K>) m = m & lnot(s.branch);
     m = m & s.alive;
     if (!any(m)) return;

@@ -5,7 +5,7 @@
 #pragma once
 #include "kernels_cpu/light/lamp.h"
 #include "kernels_cpu/media/flight.h"
-#include "kernels_cpu/path/path_params.h"
+#include "kernels_cpu/path/path_needs.h"
 #include "kernels_cpu/solids/solids.h"
 
 namespace pileus {
@@ -22,17 +22,6 @@ constexpr std::int32_t kFlightLamp = 4;  ///< one to a lamp from a vertex
 constexpr float kPathRoulette = 1.0f / 8.0f;
 /// The same for a shadow ray's transmittance, which survives as about this.
 constexpr float kShadowRoulette = 1.0f / 16.0f;
-
-/// What a kernel minds beside the media: bits of the template argument K.
-constexpr int kAmongSolids = 1;  ///< flights end at solids and at the camera's image of them
-constexpr int kSeekingSun = 2;   ///< paths are guided to the sun, which may be a disc
-constexpr int kLitByLamps = 4;   ///< there are point, spot or parallel lights
-template <int K>
-constexpr bool kSolid = (K & kAmongSolids) != 0;
-template <int K>
-constexpr bool kGuided = (K & kSeekingSun) != 0;
-template <int K>
-constexpr bool kLamps = (K & kLitByLamps) != 0;
 
 /// What solid thing ends each flight; nothing where the scene has none.
 template <int W, bool Solid>
@@ -268,7 +257,7 @@ PILEUS_FN void thin_out(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     m = m & (s.flight == kFlightPath);
     // After the last scattering only light from behind the media is left to find, and their own.
-    bool dark = !kSolid<K> && k.sky_lit == 0 && k.ground == 0;
+    bool dark = !minds_solids<K>(k) && k.sky_lit == 0 && k.ground == 0;
     if constexpr (kLamps<K>) dark = dark && k.emits == 0;
     if (dark) end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;

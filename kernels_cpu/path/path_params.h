@@ -54,14 +54,14 @@ struct PathParams {
     float to_sun[3];         ///< unit
     float sun[3];            ///< irradiance on a plane facing it
     SunHeights sun_heights;  ///< with rows in place of `sun`
-    float sun_disc;        ///< 1 - cos of its radius; 0: a point. Read by trace_paths_guided alone
-    GuideParams guide;     ///< as sun_disc
-    float sky[3];          ///< radiance, where there is no map of it
-    std::int32_t sky_lit;  ///< 0: the sky is black
-    SkyMapView map;        ///< no columns: none
-    SkySampler sampler;    ///< of the map
-    std::int32_t ground;   ///< 0: none
-    float ground_z;        ///< m
+    float sun_disc;          ///< 1 - cos of its radius; 0: a point. Read by trace_paths_full alone
+    GuideParams guide;       ///< as sun_disc
+    float sky[3];            ///< radiance, where there is no map of it
+    std::int32_t sky_lit;    ///< 0: the sky is black
+    SkyMapView map;          ///< no columns: none
+    SkySampler sampler;      ///< of the map
+    std::int32_t ground;     ///< 0: none
+    float ground_z;          ///< m
     float ground_albedo;
     GroundPaint paint;
 
@@ -73,10 +73,10 @@ struct PathParams {
     std::uint32_t first_pixel, first_sample, per_pixel;
     std::int32_t parts_wanted;  ///< 0: the total alone is stored
     float light_roulette;       ///< kLightRoulette; 0: every shadow ray flies
-    SolidsView solids;          ///< read by trace_paths_solid alone, as is
+    SolidsView solids;          ///< read by trace_paths_full alone, as is
     const float* camera_depth;  ///< [pixel], m along the ray; null: no such image
 
-    // Read by trace_paths_lamps alone.
+    // Read by trace_paths_full alone.
     std::int32_t lamp_count;  ///< 0: none
     const LampParams* lamps;
     std::int32_t lamp_spheres;  ///< 0: none of them is a sphere
@@ -98,9 +98,6 @@ struct PathTally {
     std::int64_t splits;   ///< copies of particles besides the first
     std::int64_t unsplit;  ///< vertices where too many waited already
 };
-
-/// Whether paths need trace_paths_guided.
-inline bool seeks_sun(const PathParams& k) { return k.guide.on != 0 || k.sun_disc > 0; }
 
 struct PathBuffers {
     float* radiance;       ///< [part][channel][sample], each `stride` long

@@ -6,6 +6,7 @@
 
 #include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/isa/device_threads.h"
+#include "kernels_cpu/path/path_needs.h"
 #include "src/run/device_views.h"
 
 namespace pileus {
@@ -27,10 +28,7 @@ void add_sampler(DeviceArrays& a, const SkyMapView& map, SkySampler& sampler) {
 
 /// As src/methods/path/trace_paths.cpp and src/photons/trace.cpp choose on the host.
 const void* kernel_of(const DeviceKernels& kernels, const PathParams& k) {
-    if (k.lamp_count > 0 || k.emits != 0) return kernels.trace_paths_lamps;
-    if (seeks_sun(k)) return kernels.trace_paths_guided;
-    const bool ends = has_meshes(k.solids) || k.camera_depth != nullptr;
-    return ends ? kernels.trace_paths_solid : kernels.trace_paths;
+    return needs_full(k) ? kernels.trace_paths_full : kernels.trace_paths;
 }
 const void* kernel_of(const DeviceKernels& kernels, const TraceParams& k) {
     if (k.cells[0] > 0) return kernels.trace_cells;

@@ -3,6 +3,7 @@
 #include "src/methods/path/trace_paths.h"
 
 #include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/path/path_needs.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
@@ -127,10 +128,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 /// The kernel of the table that these paths need.
 auto kernel_for(const PathInput& in, const PathParams& k) {
     if (k.importance != nullptr) return host_kernels(in.kernels).trace_paths_importance;
-    if (kLights && (k.lamp_count > 0 || k.emits != 0)) return in.kernels->trace_paths_lamps;
-    if (seeks_sun(k)) return in.kernels->trace_paths_guided;
-    const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
-    return ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
+    return needs_full(k) ? in.kernels->trace_paths_full : in.kernels->trace_paths;
 }
 
 /// Traces the samples of a launch, which fit the scratch. `ended`: not all of them, because `in`
