@@ -8,6 +8,8 @@ include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 set(CMAKE_SYSTEM_INCLUDE_PATH /usr/include)
 # Exceptions are the machine's own: those made by JavaScript cost every call.
 add_compile_options(-msimd128 -fwasm-exceptions)
+# Vectors that Clang 14 makes by itself at -O2 give other bits (tables of sky maps); ours are written as vectors.
+add_compile_options(-fno-vectorize -fno-slp-vectorize)
 add_link_options(-msimd128 -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB)
 # Emscripten asks node for Debian's acorn.
 set(CMAKE_CXX_LINKER_LAUNCHER "${CMAKE_COMMAND};-E;env;NODE_PATH=/usr/share/nodejs")

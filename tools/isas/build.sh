@@ -6,14 +6,14 @@
 
 built=-
 
-# Compile from a preset; the release build stays where everyone expects it.
+# Compile from a preset; builds that ship stay where everyone expects them.
 build() {
     local preset=$1 targets=$2 folder="build/isas-$group" begin=$SECONDS
     local configure=(--preset "$preset" -B "$folder")
     shift 2
     # With the options that it has.
-    if [ "$preset" = release ]; then
-        folder=build/release configure=(--preset "$preset")
+    if [ "$preset" = release ] || [ "$preset" = wasm ]; then
+        folder=build/$preset configure=(--preset "$preset")
         if [ -e "$folder/CMakeCache.txt" ]; then configure=("$folder"); fi
     fi
     mkdir -p "$work"
