@@ -13,7 +13,7 @@ constexpr int kMaxMedia = 8;
 
 /// Of one medium. Unless told otherwise it is white and scatters alike in all directions.
 struct Optics {
-    float albedo[3] = {1, 1, 1};  ///< per channel; only [0] counts when channels = 1
+    float albedo[3] = {1, 1, 1};  ///< per channel; all the same when channels = 1
     float albedo_max = 1;         ///< survival probability of a collision
     PhaseParams phase;
     float emission[3] = {0, 0, 0};  ///< radiance per metre over extinction; read where media emit

@@ -23,7 +23,7 @@ constexpr float kPathRoulette = 1.0f / 8.0f;
 /// The same for a shadow ray's transmittance, which survives as about this.
 constexpr float kShadowRoulette = 1.0f / 16.0f;
 
-/// What solid thing ends each flight; nothing where the scene has none.
+/// What solid thing ends each flight; nothing where K does not ask for it.
 template <int W, bool Solid>
 struct Walls {};
 template <int W>

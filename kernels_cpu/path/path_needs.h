@@ -28,8 +28,8 @@ PILEUS_FN bool needs_full(const PathParams& k) {
     return has_lamps(k) || seeks_sun(k) || ends_at_solids(k);
 }
 
-/// What a kernel knows beside the media: bits of the template argument K. What a scene has of it
-/// its parameters tell.
+/// What a kernel has beside media, sun, sky and ground: bits of the template argument K. Of that
+/// the parameters tell what the scene needs.
 constexpr int kAmongSolids = 1;  ///< flights end at solids and at the camera's image of them
 constexpr int kSeekingSun = 2;   ///< paths are guided to the sun, which may be a disc
 constexpr int kLitByLamps = 4;   ///< there are point, spot or parallel lights
@@ -44,6 +44,8 @@ template <int K>
 PILEUS_FN bool minds_lamps(const PathParams& k) {
     return kLamps<K> && has_lamps(k);
 }
+/// Among lamps the guide's rules hold without a guide, too: a sun below the ground's horizon is
+/// dark.
 template <int K>
 PILEUS_FN bool minds_sun(const PathParams& k) {
     return kGuided<K> && (seeks_sun(k) || has_lamps(k));
