@@ -25,6 +25,17 @@ namespace pileus {
 
 namespace {
 
+/// Both ends are closed in children that do not take them over.
+int open_pipe(int (&ends)[2]) {
+#ifdef __APPLE__
+    if (::pipe(ends) != 0) return -1;
+    for (const int end : ends) (void)::fcntl(end, F_SETFD, FD_CLOEXEC);
+    return 0;
+#else
+    return ::pipe2(ends, O_CLOEXEC);
+#endif
+}
+
 constexpr std::size_t kMaxErrors = 65536;
 constexpr int kLookEveryMs = 50;
 
@@ -116,7 +127,7 @@ ProcessResult run_process(const std::vector<std::string>& words, const Interrupt
                           const std::vector<std::string>& hidden) {
     ProcessResult result;
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) {
+    if (open_pipe(ends) != 0) {
         result.system_error = errno;
         return result;
     }

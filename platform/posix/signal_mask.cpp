@@ -8,7 +8,7 @@ namespace pileus {
 
 SignalMask block_all_signals() {
     sigset_t all, before;
-    (void)::sigfillset(&all);
+    (void)sigfillset(&all);  // a macro on some systems
     (void)::pthread_sigmask(SIG_SETMASK, &all, &before);
     return mask_of(before);
 }
