@@ -2,7 +2,6 @@
 // See trace_paths.h.
 #include "src/methods/path/trace_paths.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/path/path_needs.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
