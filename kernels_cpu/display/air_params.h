@@ -36,6 +36,7 @@ struct AirRowsBuffers {
     float* light;                ///< [3][pixel], the media's; taken and given back
     float* behind;               ///< [3][pixel], likewise
     float* dimmed;               ///< [3][pixel], transmittance to the media; null: not wanted
+    float* kept;  ///< [3][pixel], transmittance to what stands behind, 0: the sky; null: not wanted
 };
 
 }  // namespace pileus

@@ -236,6 +236,10 @@ PILEUS_FN void air_pixels(const AirRowsParams& k, const AirRowsBuffers& b, std::
             sky_seen(k, b, way, i, sky);
             for (int n = 0; n < 3; ++n) behind[n * pixels] = part * sky[n];
         }
+        if (b.kept == nullptr) continue;
+        const bool solid_here = lane(opaque, i) < 1e30f;
+        for (int n = 0; n < 3; ++n)
+            b.kept[n * pixels + at] = solid_here ? lane(solid_depth.left[n], i) : 0.0f;
     }
 }
 
@@ -316,7 +320,7 @@ PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::in
                 air_seen(k, b, way[g], solid[g], i, ends[e]);
         }
         for (int i = 0; i < kAirRun; i += L) {
-            AirDepth<T> depth;
+            AirDepth<T> depth{};
             if (kind == AirRun::kSolid) {
                 const I<L> column = iota<I<L>>() + (x + run * kAirRun + i);
                 const Ray<T> own = camera_ray(k.camera, to_float(column), all<T>(float(y)));
@@ -328,6 +332,9 @@ PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::in
                 if (kind == AirRun::kSolid)
                     light = load_lanes<T>(behind) * depth.left[n] + light * depth.taken[n];
                 __builtin_memcpy(behind, &light, sizeof light);
+                if (b.kept == nullptr) continue;
+                const T left = kind == AirRun::kSolid ? depth.left[n] : T{};
+                __builtin_memcpy(b.kept + n * pixels + at + i, &left, sizeof left);
             }
         }
     }

@@ -68,7 +68,8 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                            planes.opaque_depth.data(),
                            on.light,
                            on.behind,
-                           on.dimmed};
+                           on.dimmed,
+                           on.kept};
     PILEUS_TRY(run_rows(context, context.kernels->air_rows, k, b, std::uint32_t(camera.height)));
     if (scene.atmosphere.sun_disc) show_sun(scene, camera, k, planes, on, air);
     return Status::ok();

@@ -22,6 +22,7 @@ struct AirPlanes {
     float *light, *behind;
     float* dimmed = nullptr;  ///< [3][pixel]; null: not wanted
     bool through = false;
+    float* kept = nullptr;  ///< [3][pixel], transmittance to what stands behind; null: not wanted
 };
 Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                const Lighting& lighting, const CameraParams& camera, Environment& environment,

@@ -148,6 +148,7 @@ Status launch_on_device(const DeviceTable& device, const AirRowsParams& params,
     a.both(b.light, 3 * pixels);
     a.both(b.behind, 3 * pixels);
     a.both(b.dimmed, 3 * pixels);
+    a.both(b.kept, 3 * pixels);
     a.launch(device.kernels->air_rows, k, b, 0, count);
     return a.finish();
 }
