@@ -3,7 +3,7 @@
 // theirs (VSOP87), those of at least 3e-7 radians.
 #include "src/world/atmosphere/sun_position.h"
 
-#include "src/base/angles.h"
+#include "src/world/atmosphere/earth_turn.h"
 
 namespace pileus {
 namespace {
@@ -69,12 +69,6 @@ constexpr Term kRadius0[] = {
     {3084, 5.1985, 77713.7715}, {1628, 1.1739, 5753.3849},        {1576, 2.8469, 7860.4194}};
 constexpr Term kRadius1[] = {{103019, 1.10749, 6283.07585}, {1721, 1.0644, 12566.1517}};
 
-double whole_below(double x) {
-    const double cut = double(static_cast<long long>(x));
-    return cut > x ? cut - 1 : cut;
-}
-double within_turn(double degrees) { return degrees - 360 * whole_below(degrees / 360); }
-
 template <std::size_t N>
 double sum_of(const Term (&terms)[N], double millennia) {
     double sum = 0;
@@ -86,56 +80,13 @@ double sum_of(const Term (&terms)[N], double millennia) {
     return sum * 1e-8;
 }
 
-double sine(double degrees) { return sincos_deg(within_turn(degrees)).sine; }
-double cosine(double degrees) { return sincos_deg(within_turn(degrees)).cosine; }
-
-/// TT - UT in seconds: Espenak & Meeus 2006, their polynomials from 1900 to 2100.
-double dynamical_lag_s(double year) {
-    const auto sum = [](double t, std::initializer_list<double> c) {
-        double s = 0, p = 1;
-        for (const double k : c) s += k * p, p *= t;
-        return s;
-    };
-    if (year < 1920) return sum(year - 1900, {-2.79, 1.494119, -0.0598939, 0.0061966, -0.000197});
-    if (year < 1941) return sum(year - 1920, {21.20, 0.84493, -0.076100, 0.0020936});
-    if (year < 1961) {
-        const double t = year - 1950;
-        return 29.07 + 0.407 * t - t * t / 233 + t * t * t / 2547;
-    }
-    if (year < 1986) {
-        const double t = year - 1975;
-        return 45.45 + 1.067 * t - t * t / 260 - t * t * t / 718;
-    }
-    if (year < 2005)
-        return sum(year - 2000, {63.86, 0.3345, -0.060374, 0.0017275, 0.000651814, 0.00002373599});
-    if (year < 2050) return sum(year - 2000, {62.92, 0.32217, 0.005589});
-    const double u = (year - 1820) / 100;
-    return -20 + 32 * u * u - 0.5628 * (2150 - year);
-}
-
-/// Nutation in longitude and obliquity, degrees: the four largest terms (Meeus 1998, chapter 22),
-/// within 0.5 arc seconds.
-void nutation(double centuries, double& in_longitude, double& in_obliquity) {
-    const double node = 125.04452 - 1934.136261 * centuries;
-    const double sun = 280.4665 + 36000.7698 * centuries;
-    const double moon = 218.3165 + 481267.8813 * centuries;
-    in_longitude = (-17.20 * sine(node) - 1.32 * sine(2 * sun) - 0.23 * sine(2 * moon) +
-                    0.21 * sine(2 * node)) /
-                   3600;
-    in_obliquity = (9.20 * cosine(node) + 0.57 * cosine(2 * sun) + 0.10 * cosine(2 * moon) -
-                    0.09 * cosine(2 * node)) /
-                   3600;
-}
-
 }  // namespace
 
 SunPosition sun_position(const Moment& moment, double latitude_deg, double longitude_deg,
                          double height_m) {
     const double jd = moment.julian_day;
-    const double year = 2000 + (jd - 2451544.5) / 365.2425;
-    const double centuries_ut = (jd - 2451545) / 36525;
-    const double centuries = (jd + dynamical_lag_s(year) / 86400 - 2451545) / 36525;
-    const double t = centuries / 10;
+    const EarthTurn earth = earth_turn(jd);
+    const double t = earth.centuries / 10;
 
     const double longitude =
         sum_of(kLongitude0, t) +
@@ -143,19 +94,12 @@ SunPosition sun_position(const Moment& moment, double latitude_deg, double longi
     const double radius = sum_of(kRadius0, t) + t * sum_of(kRadius1, t);
     const double beta = -sum_of(kLatitude0, t) * kDegrees;
 
-    double in_longitude = 0, in_obliquity = 0;
-    nutation(centuries, in_longitude, in_obliquity);
-    // Eq. 24, 25: the mean obliquity's first terms do for these centuries.
-    const double obliquity =
-        23.4392911 - centuries * (0.0130042 + centuries * 1.64e-7) + in_obliquity;
+    const double obliquity = earth.obliquity_deg;
     // Eq. 26, 27: aberration.
     const double seen =
-        within_turn(longitude * kDegrees + 180) + in_longitude - 20.4898 / (3600 * radius);
+        within_turn(longitude * kDegrees + 180) + earth.nutation_deg - 20.4898 / (3600 * radius);
 
     // Eq. 28 to 31.
-    const double sidereal = 280.46061837 + 360.98564736629 * (jd - 2451545) +
-                            centuries_ut * centuries_ut * 0.000387933 +
-                            in_longitude * cosine(obliquity);
     const double right_ascension = angle_of_deg(
         sine(seen) * cosine(obliquity) - sine(beta) / cosine(beta) * sine(obliquity), cosine(seen));
     const double sine_declination =
@@ -164,7 +108,7 @@ SunPosition sun_position(const Moment& moment, double latitude_deg, double longi
         angle_of_deg(sine_declination, __builtin_sqrt(1 - sine_declination * sine_declination));
 
     // Eq. 32 to 40: the observer is not in the earth's middle.
-    const double hour = within_turn(sidereal + longitude_deg - right_ascension);
+    const double hour = within_turn(earth.sidereal_deg + longitude_deg - right_ascension);
     const double parallax = 8.794 / (3600 * radius);
     const SineCosine at = sincos_deg(latitude_deg);
     const double reduced = angle_of_deg(0.99664719 * at.sine, at.cosine);
