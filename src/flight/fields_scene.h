@@ -37,7 +37,7 @@ void fields(A& a, Ground& v) {
 template <class A>
 void fields(A& a, AtmosphereSettings& v) {
     all(a, v.present, v.date, v.time, v.utc_offset_h, v.latitude_deg, v.longitude_deg, v.turbidity,
-        v.ground_albedo, v.refraction, v.sun_disc);
+        v.ground_albedo, v.refraction, v.sun_disc, v.moon, v.stars, v.airglow);
 }
 template <class A>
 void fields(A& a, LightSettings& v) {

@@ -38,6 +38,7 @@ flight_files(src/picture
     air_view background blue_noise finish_frame late_rows layers march_view pixels sun_disc upsample)
 flight_files(src/picture/errors pixel_errors)
 flight_files(src/picture/filter features filter_error guides regression)
+flight_files(src/picture/night night_view)
 flight_files(src/picture/nodes
     ground_shadow lamp_light node_grid node_rows sky_light sky_nodes sky_view sun_depth sun_slices sweep_taps)
 flight_files(src/picture/ordinates ordinate_directions ordinate_ground ordinate_half ordinate_medium ordinate_optics ordinate_own ordinate_ring
@@ -47,7 +48,7 @@ flight_files(src/run find_kernels)
 flight_files(src/scene calendar frame_state method_column)
 flight_files(src/scene/media medium_settings sky_types transfer)
 flight_files(src/session run_context session session_set session_work version warnings)
-flight_files(src/world/atmosphere air air_column air_orders air_sky air_tables atmosphere earth_turn moon_position sun_position)
+flight_files(src/world/atmosphere air air_column air_orders air_sky air_tables atmosphere earth_turn moon_position night_light sun_position)
 flight_files(src/world/camera matrices view)
 flight_files(src/world/density noise_texture sky_field)
 flight_files(src/world environment place_scene plan_parts world_digest)

@@ -14,7 +14,7 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 9;
+constexpr std::uint64_t kFormat = 10;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
 constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24, kDigestAt = 24;
 

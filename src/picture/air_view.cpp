@@ -6,23 +6,71 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/picture/march_view.h"
+#include "src/picture/night/night_view.h"
 #include "src/picture/sun_disc.h"
 
 namespace pileus {
 namespace {
 
-/// Through the media it is dimmed as the sky is; where a host lays them over it, later.
-void show_sun(const Scene& scene, const CameraParams& camera, const AirRowsParams& k,
-              const Planes& planes, const AirPlanes& on, const Atmosphere& air) {
-    SunDisc disc;
-    for (int a = 0; a < 3; ++a) disc.to_sun[a] = k.to_sun[a];
-    if (scene.sun.angular_radius_deg > 0) disc.radius_deg = scene.sun.angular_radius_deg;
-    disc.horizon = double(k.horizon);
+/// The sun's or the moon's disc. Through the media it is dimmed as the sky is; where a host lays
+/// them over it, later.
+void show_disc(const CameraParams& camera, const FarLight& of, SunDisc disc, const Planes& planes,
+               const AirPlanes& on, const Atmosphere& air) {
+    disc.horizon = double(air.sky.horizon);
     const double height_km = std::min(air.camera_km, 0.999 * (kAirTopKm - kEarthRadiusKm));
-    disc.irradiance = sunlight(air.tables, height_km, double(k.to_sun[2]));
-    for (std::size_t c = 0; c < 3; ++c) disc.irradiance[c] *= air.above[int(c)];
+    disc.irradiance = sunlight(air.tables, height_km, double(disc.to_sun[2]));
+    for (std::size_t c = 0; c < 3; ++c) disc.irradiance[c] *= of.above[int(c)];
     add_sun_disc(camera, disc, planes.opaque_depth.span(),
                  on.through ? planes.transmittance.span() : Span<const float>{}, on.behind);
+}
+
+void show_discs(const Scene& scene, const Lighting& lighting, const CameraParams& camera,
+                const Planes& planes, const AirPlanes& on, const Atmosphere& air) {
+    const auto aimed = [&](const FarLight& of) {
+        SunDisc disc;
+        const Double3 to = towards_deg(of.azimuth_deg, of.elevation_deg);
+        for (int a = 0; a < 3; ++a)
+            disc.to_sun[a] = &of == &air ? lighting.to_sun[std::size_t(a)] : float(to[a]);
+        return disc;
+    };
+    if (scene.atmosphere.sun_disc) {
+        SunDisc sun = aimed(air.sun());
+        if (scene.sun.angular_radius_deg > 0) sun.radius_deg = scene.sun.angular_radius_deg;
+        show_disc(camera, air.sun(), sun, planes, on, air);
+    }
+    if (!air.has_moon) return;
+    SunDisc moon = aimed(air.moon());
+    moon.radius_deg = scene.night.moon_radius_deg;
+    for (std::size_t a = 0; a < 3; ++a) moon.lit_from[a] = scene.night.moon_to_sun[int(a)];
+    show_disc(camera, air.moon(), moon, planes, on, air);
+}
+
+/// What the air of the other light sends, before and behind everything. The first light's rows have
+/// dimmed what is there.
+Status add_other_sky(const Context& context, const Atmosphere& air, AirRowsParams k,
+                     AirRowsBuffers b) {
+    const std::size_t count =
+        std::size_t(3) * std::size_t(k.camera.width) * std::size_t(k.camera.height);
+    const Double3 to = towards_deg(air.other.azimuth_deg, air.other.elevation_deg);
+    for (int c = 0; c < 3; ++c) {
+        k.to_sun[c] = float(to[c]);
+        k.above[c] = float(air.other.above[c]);
+    }
+    Buffer<float> light, behind;
+    PILEUS_TRY(light.resize(count, "air"));
+    PILEUS_TRY(behind.resize(count, "air"));
+    float *const all_light = b.light, *const all_behind = b.behind;
+    b.sky = air.other.sky.texels.data();
+    b.air = air.other.near.data();
+    b.light = light.data();
+    b.behind = behind.data();
+    b.dimmed = b.kept = nullptr;
+    PILEUS_TRY(run_rows(context, context.kernels->air_rows, k, b, std::uint32_t(k.camera.height)));
+    for (std::size_t i = 0; i < count; ++i) {
+        all_light[i] += light[i];
+        all_behind[i] += behind[i];
+    }
+    return Status::ok();
 }
 
 }  // namespace
@@ -71,7 +119,11 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                            on.dimmed,
                            on.kept};
     PILEUS_TRY(run_rows(context, context.kernels->air_rows, k, b, std::uint32_t(camera.height)));
-    if (scene.atmosphere.sun_disc) show_sun(scene, camera, k, planes, on, air);
+    if (air.two_skies) PILEUS_TRY(add_other_sky(context, air, k, b));
+    const SkySeen seen{camera, planes.opaque_depth.span(),
+                       on.through ? planes.transmittance.span() : Span<const float>{}, on.behind};
+    show_night(context.threads, air, seen);
+    show_discs(scene, lighting, camera, planes, on, air);
     return Status::ok();
 }
 

@@ -13,6 +13,32 @@ namespace {
 constexpr int kMaxParts = 64;    // of a pixel's edge
 constexpr double kMaxPixel = 8;  // radii of the disc
 
+/// The lit side of a ball as it is seen: along `side`, across the line of sight, and towards us.
+struct Terminator {
+    bool any = false;
+    double side[3] = {}, across = 0, towards = 1;
+    double lit = 1;  ///< share of the disc
+};
+Terminator terminator_of(const SunDisc& disc) {
+    Terminator t;
+    double square = 0, along = 0;
+    for (std::size_t a = 0; a < 3; ++a) square += disc.lit_from[a] * disc.lit_from[a];
+    if (!(square > 0)) return t;
+    t.any = true;
+    for (std::size_t a = 0; a < 3; ++a) along += disc.lit_from[a] * double(disc.to_sun[a]);
+    double rest = 0;
+    for (int a = 0; a < 3; ++a) {
+        t.side[a] = disc.lit_from[std::size_t(a)] - along * double(disc.to_sun[a]);
+        rest += t.side[a] * t.side[a];
+    }
+    t.across = __builtin_sqrt(rest);
+    t.towards = -along;
+    for (double& v : t.side) v = t.across > 1e-12 ? v / t.across : 0;
+    // Of a crescent thinner than this the light goes down with it (moon_position.h).
+    t.lit = std::max(0.5 * (1 + t.towards), 0.005);
+    return t;
+}
+
 /// Whole numbers of pixels that a stretch [low, high] of the picture touches, within [first, end).
 struct Stretch {
     int begin, end;
@@ -45,19 +71,25 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
     // As the whole picture counts pixels.
     const Stretch columns = touched(middle_x, reach * wide + 1, c.left, c.left + c.width);
     const Stretch rows = touched(middle_y, reach * high + 1, 0, whole_height(c));
+    const Terminator terminator = terminator_of(disc);
     // Parts of a pixel lie within a sixteenth of the radius, or as many as there may be.
     const double pixel = 1 / std::min(wide, high);
-    const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0), double(kMaxParts)));
+    const double narrow = std::min(4 * terminator.lit, 1.0);
+    const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0) / narrow, double(kMaxParts)));
     // What is smaller than parts are is in one pixel: its area over the pixel's.
     const bool point = pixel > kMaxPixel * r.sine;
     const double own_x = std::floor(middle_x), own_y = std::floor(middle_y);
-    const double point_share =
+    double point_share =
         double(disc.to_sun[2]) < disc.horizon
             ? 0
             : kPi64 * r.sine * r.sine * slant * __builtin_sqrt(slant) * wide * high;
     std::array<double, 3> radiance{};
     for (std::size_t n = 0; n < 3; ++n)
         radiance[n] = disc.irradiance[n] / (kPi64 * r.sine * r.sine);
+    if (terminator.any) {
+        point_share *= terminator.lit;
+        for (double& v : radiance) v /= terminator.lit;
+    }
     const std::size_t pixels = std::size_t(c.width) * std::size_t(c.height);
     for (int own = 0; own < c.height; ++own) {
         const int j = picture_row(c, own);
@@ -87,6 +119,17 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
                         const double cross =
                             d[b] * double(disc.to_sun[e]) - d[e] * double(disc.to_sun[b]);
                         off += cross * cross;
+                    }
+                    if (terminator.any) {
+                        // Where the line of sight meets the ball: its normal there, of length 1.
+                        double side = 0;
+                        for (int a = 0; a < 3; ++a) side += d[a] * terminator.side[a];
+                        const double length = r.sine * __builtin_sqrt(square);
+                        const double rest = std::max(1 - off / (length * length), 0.0);
+                        if (side / length * terminator.across +
+                                __builtin_sqrt(rest) * terminator.towards <=
+                            0)
+                            continue;
                     }
                     within +=
                         along > 0 && off <= r.sine * r.sine * square &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sun itself in a picture's sky: a disc, alike all over.
-// in: a camera, where the sun stands, what is before it -> out: light added to pixels.
-// docs/atmosphere.md, "In front of things"
+// The sun and the moon themselves in a picture's sky: discs, alike all over what shines of them.
+// in: a camera, where one stands, what is before it -> out: light added to pixels.
+// docs/atmosphere.md, "In front of things", "Night"
 #pragma once
 #include <array>
 
@@ -18,6 +18,9 @@ struct SunDisc {
     double radius_deg = kSunRadiusDeg;   ///< above 0
     std::array<double, 3> irradiance{};  ///< on a plane that faces it, at the camera
     double horizon = -1;                 ///< cosine to the vertical below which the earth hides it
+    /// Of a ball that is lit from aside: the direction of what lights it, unit vector; the
+    /// irradiance is that of the lit part. All zero: all of the disc shines.
+    std::array<double, 3> lit_from{};
 };
 
 /// Adds the radiance to `behind`, [3][pixel], by the share of each pixel that the disc covers.

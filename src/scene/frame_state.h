@@ -72,6 +72,20 @@ struct Ground {
     double altitude_m = 0, albedo = 0.2;
 };
 
+/// What a date tells of the night: where the moon is seen and what of it is lit, how the stars are
+/// turned.
+struct Night {
+    bool moon = false, stars = false;  ///< placed
+    double moon_azimuth_deg = 0, moon_elevation_deg = 0;
+    double moon_radius_deg = 0;    ///< of its disc
+    Double3 moon_light{};          ///< above the air, over the sun's
+    Double3 moon_to_sun{0, 0, 1};  ///< unit vector from the moon: east, north, up
+    double centuries = 0;          ///< since 2000, of terrestrial time
+    double sidereal_deg = 0;       ///< of the place
+    double latitude_deg = 0;
+    bool refraction = true;  ///< lifts stars
+};
+
 /// How far all media have moved, and turned about the z axis through the origin before that, from
 /// north to west.
 struct Placement {
@@ -89,6 +103,7 @@ struct WorldKey {
 struct FrameState {
     Camera camera;
     Sun sun;
+    Night night;  ///< of a date that has one; a host's sun leaves it as it is
     Sky sky;
     Ground ground;
     std::vector<LightSettings> lights;  ///< besides sun and sky

@@ -49,6 +49,9 @@ struct AtmosphereSettings {
     double ground_albedo = 0.2;  ///< of the round earth where there is no [ground]
     bool refraction = true;      ///< lifts the sun of a date
     bool sun_disc = true;        ///< the sun itself is seen in the sky
+    bool moon = false;           ///< that of the date is seen, and lights the night
+    bool stars = false;          ///< those of the date are seen, and their light is part of the sky
+    bool airglow = false;        ///< the air's own light, and zodiacal light, are part of the sky
 };
 
 }  // namespace pileus

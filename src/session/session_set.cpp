@@ -132,8 +132,8 @@ Status Session::relight_air() {
     const PoolGuard lent(*threads_);
     // Where memory ends, the next picture tries again.
     changed_.anew = changed_.air_old = true;
-    PILEUS_TRY(pileus::relight_air(scene_.atmosphere, host_.sun, host_.ground, context_.threads,
-                                   world(), scenery_.environment));
+    PILEUS_TRY(pileus::relight_air(scene_.atmosphere, host_, context_.threads, world(),
+                                   scenery_.environment));
     changed_.air_old = false;
     return Status::ok();
 }

@@ -20,6 +20,11 @@ InAir in_air(const Scene& scene, const Atmosphere& air) {
     return out;
 }
 
+/// Where the beams come from that light all of a scene: the sun, or the moon.
+SunPlace beams_from(const Atmosphere& air, const SunPlace& sun) {
+    return air.present() && air.moonlit ? SunPlace{air.azimuth_deg, air.elevation_deg} : sun;
+}
+
 /// By height, of media whose lowest level is at `low_m`.
 SunHeights by_height(const Scene& scene, const Atmosphere& air, double low_m) {
     SunHeights h{};
@@ -61,8 +66,7 @@ Status outline_environment(const Scene& scene, const Context& context, const Wor
     if (!kAtmosphere || !scene.atmosphere.present)
         return read_sky_map(scene, context, sky, environment.sky_map);
     const StageClock clock(context, "atmosphere");
-    return relight_air(scene.atmosphere, scene.sun, scene.ground, context.threads, world,
-                       environment);
+    return relight_air(scene.atmosphere, scene, context.threads, world, environment);
 }
 
 Status load_environment(const Scene& scene, const Context& context, Environment& environment) {
@@ -76,9 +80,10 @@ Status set_sky_map(const Image* map, const Sky& sky, bool ground, Environment& e
     return Status::ok();
 }
 
-Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Ground& ground,
-                   int threads, const World& world, Environment& environment) {
+Status relight_air(const AtmosphereSettings& settings, const FrameState& frame, int threads,
+                   const World& world, Environment& environment) {
     const Medium& medium = world.medium;
+    const Ground& ground = frame.ground;
     const double sea_m = ground.present ? ground.altitude_m : 0;
     const double height_m = medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m;
     Ground lit = ground;
@@ -86,7 +91,8 @@ Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Gro
                                stand_of(medium, {}, sea_m - medium.low_m[2]), 1)
                      .even;
     Image image;
-    PILEUS_TRY(light_atmosphere(settings, sun, lit, height_m, threads, environment.air, image));
+    PILEUS_TRY(light_atmosphere(settings, frame.sun, lit, height_m, threads, environment.air, image,
+                                frame.night));
     SkyMap map;
     PILEUS_TRY(make_sky_map("atmosphere", image, Sky{}, ground.present, map));
     environment.sky_map = std::move(map);
@@ -96,8 +102,8 @@ Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Gro
 Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
                   const Environment& environment) {
     return with_shining(scene, world, environment, [&](const Shining& shining) {
-        Lighting out = make_lighting(shining, world.medium, sun, &environment.sky_map,
-                                     &world.solids, &environment.depth);
+        Lighting out = make_lighting(shining, world.medium, beams_from(environment.air, sun),
+                                     &environment.sky_map, &world.solids, &environment.depth);
         out.air = environment.air.present();
         return out;
     });
@@ -106,8 +112,10 @@ Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
 void explain_light(const Scene& scene, const SunPlace& sun, const World& world,
                    const Environment& environment, const Lighting& made, Plan& plan) {
     with_shining(scene, world, environment, [&](const Shining& shining) {
-        explain_lighting(shining, world.medium, sun, made, plan);
+        explain_lighting(shining, world.medium, beams_from(environment.air, sun), made, plan);
     });
+    if (environment.air.present() && environment.air.moonlit)
+        plan.leave_out("sun's beams", "the moon lights the media more");
 }
 
 }  // namespace pileus

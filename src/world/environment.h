@@ -30,12 +30,12 @@ Status read_sky_map(const Scene& scene, const Context& context, const Image* sky
 /// Another sky map, or none: null. The old one stays where memory ends.
 Status set_sky_map(const Image* map, const Sky& sky, bool ground, Environment& environment);
 
-/// The air and its sky for another sun or ground.
-Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Ground& ground,
-                   int threads, const World& world, Environment& environment);
+/// The air and its sky for another sun, moon or ground.
+Status relight_air(const AtmosphereSettings& settings, const FrameState& frame, int threads,
+                   const World& world, Environment& environment);
 
-/// The lights of a scene whose sun is at this place. The result points into `world` and
-/// `environment`.
+/// The lights of a scene whose sun is at this place. Where the moon lights it, its beams are the
+/// moon's, to every method. The result points into `world` and `environment`.
 Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
                   const Environment& environment);
 

@@ -45,6 +45,10 @@ TEST_CASE("atmosphere: keys that do not go together, dates that do not exist") {
         {air + "[sun]\n[animation]\nhours = [0, 6]\n",
          "s.toml:7:1: animation.hours: conflicts with a scene without atmosphere.date, [0, 6], "
          "allowed: left out"},
+        {air + "moon = true\n[sun]\n",
+         "s.toml:5:8: atmosphere.moon: without a date, true, allowed: false, or atmosphere.date"},
+        {air + "stars = true\n[sun]\n",
+         "s.toml:5:9: atmosphere.stars: without a date, true, allowed: false, or atmosphere.date"},
         {air + "turbidity = 0.9\n[sun]\n",
          "s.toml:5:13: atmosphere.turbidity: out of range, 0.9, allowed: number in [1, 10]"},
     };
@@ -54,6 +58,7 @@ TEST_CASE("atmosphere: keys that do not go together, dates that do not exist") {
     CHECK_FALSE(read(air + "date = 2026-06-21T08:30:00Z\n" + kPlace));
     CHECK_FALSE(read("seed = 2026-06-21\n" + kCamera));
     CHECK(read(air + "[sun]\n"));
+    CHECK(read(air + "airglow = true\nmoon = false\nstars = false\n[sun]\n"));
     CHECK(read(air + "date = \"2024-02-29\"\n" + kPlace + "[sun]\nirradiance = 3\n"));
 }
 

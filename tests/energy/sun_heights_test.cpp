@@ -71,7 +71,7 @@ TEST_CASE("sun in air: ground, media and any height have it through the air abov
     world.medium.extent_m[0] = world.medium.extent_m[1] = 8000;
     world.medium.extent_m[2] = 2000;
     Environment environment;
-    REQUIRE(relight_air(scene.atmosphere, scene.sun, scene.ground, 1, world, environment));
+    REQUIRE(relight_air(scene.atmosphere, scene, 1, world, environment));
     const Lighting light =
         light_of(scene, {scene.sun.azimuth_deg, scene.sun.elevation_deg}, world, environment);
     const Air air = make_air(4, 0.5);

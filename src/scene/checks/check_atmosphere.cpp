@@ -53,6 +53,10 @@ void check_atmosphere(SceneCheck& check) {
              {"atmosphere.time", "atmosphere.utc_offset_h", "atmosphere.latitude_deg",
               "atmosphere.longitude_deg", "atmosphere.refraction"})
             refuse(key, "without a date", ", allowed: left out, or atmosphere.date");
+        if (scene.atmosphere.moon)
+            refuse("atmosphere.moon", "without a date", ", allowed: false, or atmosphere.date");
+        if (scene.atmosphere.stars)
+            refuse("atmosphere.stars", "without a date", ", allowed: false, or atmosphere.date");
         if (!scene.sun.present && table != nullptr)
             check.faults.add(table->at, "atmosphere.date",
                              "missing, nothing, allowed: a date, or the table [sun]");
@@ -60,6 +64,12 @@ void check_atmosphere(SceneCheck& check) {
     if (check.written)
         for (const char* key : {"sky.radiance", "sky.map"})
             refuse(key, "conflicts with [atmosphere]", ", allowed: left out");
+    if (scene.clouds.present()) {
+        if (scene.atmosphere.moon)
+            refuse("atmosphere.moon", "not with [clouds]", ", allowed: false");
+        if (scene.atmosphere.stars)
+            refuse("atmosphere.stars", "not with [clouds]", ", allowed: false");
+    }
     if (scene.camera.orthographic && !scene.camera.flux)
         refuse("camera.projection", "looks from no single place in the air",
                ", allowed: perspective, flux");

@@ -162,6 +162,13 @@ constexpr KeyRow kAirRows[] = {
      "whether the air lifts the sun of a date near the horizon"},
     {"atmosphere.sun_disc", air<&Air::sun_disc>, any(), "",
      "whether the sun itself is seen in the sky; of sun.angular_radius_deg, or 0.2665 degrees"},
+    {"atmosphere.moon", air<&Air::moon>, any(), "",
+     "whether the moon of the date is seen, and lights the scene where the sun does not; needs a "
+     "date"},
+    {"atmosphere.stars", air<&Air::stars>, any(), "",
+     "whether the stars of the date are seen, and their light is part of the sky; needs a date"},
+    {"atmosphere.airglow", air<&Air::airglow>, any(), "",
+     "whether the air's own faint light, and zodiacal light, are part of the sky"},
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/atmosphere/air_column.h"
-#include "src/world/atmosphere/sun_position.h"
+#include "src/world/atmosphere/night_light.h"
 
 namespace pileus {
 namespace {
@@ -19,19 +19,12 @@ constexpr int kMapRows = 128, kMapColumns = 256;
 
 double root(double v) { return v > 0 ? __builtin_sqrt(v) : 0; }
 
-/// The sky from the media, each texel in its middle.
-Status paint_map(double azimuth_deg, const Atmosphere& air, int threads, Image& map) {
+/// The sky from the media as one light makes it, each texel in its middle.
+Status add_to_map(const FarLight& by, const Atmosphere& air, int threads, Image& map) {
     AirSky view;
-    const double sine = sincos_deg(air.sun_elevation_deg).sine;
+    const double sine = sincos_deg(by.elevation_deg).sine;
     PILEUS_TRY(make_air_sky(air.tables, air.height_km, sine, threads, view));
-    map.width = kMapColumns;
-    map.height = kMapRows;
-    map.channels.clear();
-    for (const char* name : {"R", "G", "B"}) {
-        map.channels.push_back({name, {}});
-        PILEUS_TRY(map.channels.back().pixels.resize(kMapRows * kMapColumns, "atmosphere"));
-    }
-    const Double3 to_sun = towards_deg(azimuth_deg, air.sun_elevation_deg);
+    const Double3 to_sun = towards_deg(by.azimuth_deg, by.elevation_deg);
     for (int row = 0; row < kMapRows; ++row) {
         const SineCosine zenith = sincos_deg((row + 0.5) * 180.0 / kMapRows);
         for (int i = 0; i < kMapColumns; ++i) {
@@ -41,10 +34,38 @@ Status paint_map(double azimuth_deg, const Atmosphere& air, int threads, Image& 
             float light[3];
             sky_radiance(view, zenith.cosine, along, light);
             for (std::size_t c = 0; c < 3; ++c)
-                map.channels[c].pixels[std::size_t(row * kMapColumns + i)] =
-                    light[c] * float(air.above[int(c)]);
+                map.channels[c].pixels[std::size_t(row * kMapColumns + i)] +=
+                    light[c] * float(by.above[int(c)]);
         }
     }
+    return Status::ok();
+}
+
+/// The light behind the air, as it comes through it.
+void add_glow_to_map(const Atmosphere& air, Image& map) {
+    if (air.glow == Double3{}) return;
+    for (int row = 0; row < kMapRows; ++row) {
+        const double up = sincos_deg((row + 0.5) * 180.0 / kMapRows).cosine;
+        const std::array<double, 3> light = glow_at(air.tables, air.height_km, up);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int i = 0; i < kMapColumns; ++i)
+                map.channels[c].pixels[std::size_t(row * kMapColumns + i)] +=
+                    float(light[c] * air.glow[int(c)]);
+    }
+}
+
+Status paint_map(const Atmosphere& air, int threads, Image& map) {
+    map.width = kMapColumns;
+    map.height = kMapRows;
+    map.channels.clear();
+    for (const char* name : {"R", "G", "B"}) {
+        map.channels.push_back({name, {}});
+        PILEUS_TRY(map.channels.back().pixels.resize(kMapRows * kMapColumns, "atmosphere"));
+        for (float& v : map.channels.back().pixels.span()) v = 0;
+    }
+    PILEUS_TRY(add_to_map(air, air, threads, map));
+    if (air.two_skies) PILEUS_TRY(add_to_map(air.other, air, threads, map));
+    add_glow_to_map(air, map);
     return Status::ok();
 }
 
@@ -82,8 +103,8 @@ struct Sources {
     float by_air[kHeights][3], by_haze[kHeights][3], sun[kHeights][3];
 };
 
-void fill_heights(const Atmosphere& air, Heights& out) {
-    out.sun = air.sky.sun;
+void fill_heights(const Atmosphere& air, const FarLight& by, Heights& out) {
+    out.sun = by.sky.sun;
     for (int i = 0; i < kHeights; ++i)
         sunlight_at(air.tables, kEarthRadiusKm + height_of(i), double(out.sun), out.sunlight[i]);
 }
@@ -149,7 +170,7 @@ void add_piece(const Air& air, const Sources& sources, double from, double to, d
 /// One direction of the air near a camera, slice by slice, from its sources: light over the share
 /// that the air takes of what lies behind, which hardly changes from slice to slice.
 void look_along(const Sources& sources, double cosine, std::size_t row, std::size_t column,
-                Atmosphere& out) {
+                const Atmosphere& out, float* near) {
     const Air& air = out.tables.air;
     const double reach = reach_along(cosine, out);
     // No shorter way is looked at, and the light over the share has a limit.
@@ -171,7 +192,7 @@ void look_along(const Sources& sources, double cosine, std::size_t row, std::siz
         before = end;
         const AirPiece whole = level_piece(air, out.camera_km, out.camera_km + end * cosine, end);
         const std::size_t line = std::size_t(slice) * kAirRows + row;
-        float* texel = out.near.data() + 8 * (line * kAirColumns + column);
+        float* texel = near + 8 * (line * kAirColumns + column);
         for (int c = 0; c < 3; ++c) {
             const float taken = one_minus_exp(whole.depth[c]);
             texel[c] = taken > 0 ? sent.smooth[c] / taken : 0;
@@ -181,17 +202,38 @@ void look_along(const Sources& sources, double cosine, std::size_t row, std::siz
     // Where no air is for long, what lies between is lit as the first that is.
     for (int slice = kAirSlices - 2; slice >= 0; --slice) {
         const std::size_t line = std::size_t(slice) * kAirRows + row;
-        float* texel = out.near.data() + 8 * (line * kAirColumns + column);
+        float* texel = near + 8 * (line * kAirColumns + column);
         const float* next = texel + 8 * kAirRows * kAirColumns;
         for (int c = 0; c < 6; ++c)
             if (texel[c] == 0) texel[c] = next[c];
     }
 }
 
+/// The sky and the air as one light makes them, from the height that `air` looks from.
+Status look_by(FarLight& by, const Atmosphere& air, int threads) {
+    PILEUS_TRY(make_air_sky(air.tables, air.camera_km, sincos_deg(by.elevation_deg).sine, threads,
+                            by.sky));
+    PILEUS_TRY(by.near.resize(std::size_t{8} * kAirSlices * kAirRows * kAirColumns, "air"));
+    Heights heights;
+    fill_heights(air, by, heights);
+    parallel_for(threads, kAirRows, [&](std::int64_t row, int) {
+        const double x = 2.0 * double(row) / (kAirRows - 1) - 1;
+        const double cosine = x < 0 ? -x * x : x * x;
+        Sources sources;
+        for (std::size_t column = 0; column < kAirColumns; ++column) {
+            const double half = double(column) / (kAirColumns - 1);
+            fill_sources(air, heights, cosine, 1 - 2 * half * half, sources);
+            look_along(sources, cosine, std::size_t(row), column, air, by.near.data());
+        }
+    });
+    return Status::ok();
+}
+
 }  // namespace
 
 Status light_atmosphere(const AtmosphereSettings& s, const Sun& sun, const Ground& below,
-                        double height_m, int threads, Atmosphere& air, Image& map) {
+                        double height_m, int threads, Atmosphere& air, Image& map,
+                        const Night& night) {
     const double ground = below.present ? below.albedo : s.ground_albedo;
     const Air wanted = make_air(s.turbidity, ground);
     const Air& had = air.tables.air;
@@ -201,36 +243,24 @@ Status light_atmosphere(const AtmosphereSettings& s, const Sun& sun, const Groun
         if (!made) air.tables = AirTables{};
         PILEUS_TRY(made);
     }
-    for (int c = 0; c < 3; ++c) air.above[c] = double(sun.irradiance[std::size_t(c)]);
-    air.sun_elevation_deg = sun.elevation_deg;
     air.height_km = height_m > 0 ? 1e-3 * height_m : 0;
-    air.sunlight = sunlight(air.tables, air.height_km, sincos_deg(air.sun_elevation_deg).sine);
+    choose_light(s, sun, night, below.present, air);
+    air.sunlight = sunlight(air.tables, air.height_km, sincos_deg(air.elevation_deg).sine);
     air.camera_km = -1;
-    PILEUS_TRY(fill_sun_depth(sincos_deg(air.sun_elevation_deg).sine, air));
-    return paint_map(sun.azimuth_deg, air, threads, map);
+    PILEUS_TRY(fill_sun_depth(sincos_deg(air.elevation_deg).sine, air));
+    return paint_map(air, threads, map);
 }
 
 Status look_from(double height_m, int threads, Atmosphere& air) {
     const double height_km = height_m > 0 ? 1e-3 * height_m : 0;
     if (air.camera_km == height_km) return Status::ok();
-    PILEUS_TRY(make_air_sky(air.tables, height_km, sincos_deg(air.sun_elevation_deg).sine, threads,
-                            air.sky));
-    PILEUS_TRY(air.near.resize(std::size_t{8} * kAirSlices * kAirRows * kAirColumns, "air"));
+    // Half of it would be taken for all the next time.
     air.camera_km = height_km;
     air.reach_m = kAirReachM > 20000 * height_km ? kAirReachM : 20000 * height_km;
-    Heights heights;
-    fill_heights(air, heights);
-    parallel_for(threads, kAirRows, [&](std::int64_t row, int) {
-        const double x = 2.0 * double(row) / (kAirRows - 1) - 1;
-        const double cosine = x < 0 ? -x * x : x * x;
-        Sources sources;
-        for (std::size_t column = 0; column < kAirColumns; ++column) {
-            const double half = double(column) / (kAirColumns - 1);
-            fill_sources(air, heights, cosine, 1 - 2 * half * half, sources);
-            look_along(sources, cosine, std::size_t(row), column, air);
-        }
-    });
-    return Status::ok();
+    Status made = look_by(air, air, threads);
+    if (made && air.two_skies) made = look_by(air.other, air, threads);
+    if (!made) air.camera_km = -1;
+    return made;
 }
 
 Status check_camera_in_air(const Scene& scene, const Camera& camera, const Ground& ground) {
@@ -240,20 +270,6 @@ Status check_camera_in_air(const Scene& scene, const Camera& camera, const Groun
                                     number_text(camera.position_m[2]) +
                                     ", allowed: up to 100 km above it, or no [ground]: the round "
                                     "earth shows"));
-}
-
-void place_sun(const AtmosphereSettings& s, double hours_later, Sun& sun) {
-    if (!s.present || s.date.empty()) return;
-    int date[3];
-    double hours = 0;
-    if (!read_date(s.date, date) || !read_time(s.time, hours)) return;
-    const SunPosition at = sun_position(moment_of(date, hours + hours_later, s.utc_offset_h),
-                                        s.latitude_deg, s.longitude_deg);
-    sun.present = true;
-    sun.azimuth_deg = at.azimuth_deg;
-    sun.elevation_deg = at.elevation_deg + (s.refraction ? refraction_deg(at.elevation_deg) : 0);
-    const double nearer = 1 / (at.distance_au * at.distance_au);
-    for (float& e : sun.irradiance) e = float(double(e) * nearer);
 }
 
 }  // namespace pileus

@@ -21,25 +21,40 @@ constexpr double kAirReachM = 300000;
 constexpr int kSunRows = 1024;
 constexpr double kSunRowM = 50;
 
-struct Atmosphere {
-    AirTables tables;
-    Double3 above{};                 ///< the sun's irradiance above the air
-    std::array<double, 3> sunlight;  ///< share of it that reaches the media
-    double sun_elevation_deg = 0;
-    double height_km = 0;     ///< of the media's middle
-    Buffer<float> sun_depth;  ///< [channel][kSunRows] towards the sun, from the ground up
-    AirSky sky;               ///< as the camera of the last picture saw it
+/// A light far off, and the sky and the air that it lights.
+struct FarLight {
+    Double3 above{};  ///< its irradiance above the air
+    double azimuth_deg = 0, elevation_deg = 0;
+    AirSky sky;  ///< as the camera of the last picture saw it
     /// [slice][row][column][8], from that camera on: light over the share that air takes.
     Buffer<float> near;
-    double camera_km = -1, reach_m = kAirReachM;
-
-    bool present() const { return tables.present(); }
 };
 
-/// Takes up turbidity, ground and sun; what has not changed is kept. `map`: the sky
+/// The first light is the one whose beams light the scene: the sun, or the moon where the media get
+/// more from it (light_atmosphere decides).
+struct Atmosphere : FarLight {
+    AirTables tables;
+    std::array<double, 3> sunlight;  ///< share of `above` that reaches the media
+    double height_km = 0;            ///< of the media's middle
+    Buffer<float> sun_depth;         ///< [channel][kSunRows] towards it, from the ground up
+    double camera_km = -1, reach_m = kAirReachM;
+
+    FarLight other;          ///< the sun or the moon, whichever is not the first
+    bool has_moon = false;   ///< one of both is it
+    bool moonlit = false;    ///< the first is it
+    bool two_skies = false;  ///< the other's sky is more than a thousandth
+    Double3 glow{};          ///< radiance of what is behind the air, straight up, even
+
+    bool present() const { return tables.present(); }
+    const FarLight& sun() const { return moonlit ? other : *this; }
+    const FarLight& moon() const { return moonlit ? *this : other; }
+};
+
+/// Takes up turbidity, ground, sun and moon; what has not changed is kept. `map`: the sky
 /// from the media's height, zenith first, the north in its middle, in the sun's unit.
 Status light_atmosphere(const AtmosphereSettings& settings, const Sun& sun, const Ground& ground,
-                        double height_m, int threads, Atmosphere& air, Image& map);
+                        double height_m, int threads, Atmosphere& air, Image& map,
+                        const Night& night = {});
 
 /// The sky and the air as seen from a height above the ground.
 Status look_from(double height_m, int threads, Atmosphere& air);
@@ -50,5 +65,7 @@ Status check_camera_in_air(const Scene& scene, const Camera& camera, const Groun
 /// Where a scene with a date has its sun, so many hours later; nothing without one. `sun`: as the
 /// text has it, whose irradiance is that at the mean distance.
 void place_sun(const AtmosphereSettings& settings, double hours_later, Sun& sun);
+/// The moon and the stars of that date, where the settings ask for them.
+void place_night(const AtmosphereSettings& settings, double hours_later, Night& night);
 
 }  // namespace pileus
