@@ -40,7 +40,7 @@ void show_discs(const Scene& scene, const Lighting& lighting, const CameraParams
     }
     if (!air.has_moon) return;
     SunDisc moon = aimed(air.moon());
-    moon.radius_deg = scene.night.moon_radius_deg;
+    moon.radius_deg = air.moon_radius_deg;
     for (std::size_t a = 0; a < 3; ++a) moon.lit_from[a] = scene.night.moon_to_sun[int(a)];
     show_disc(camera, air.moon(), moon, planes, on, air);
 }

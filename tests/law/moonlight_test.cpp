@@ -198,8 +198,8 @@ TEST_CASE("moonlight: nothing jumps while the sun sets") {
 
 TEST_CASE("moonlight: airglow is the sky of a moonless night, brighter towards the horizon") {
     const Lit dark(-90, -90, true, true), black(-90, -90, true, false);
-    // 205 stars of magnitude 10 per square degree of magnitudes below a sun of -26.74, less the
-    // root of what air of an optical depth of 0.4 leaves.
+    // 205 stars of magnitude 10 per square degree, of magnitudes below a sun of -26.74, less half
+    // of what air of an optical depth of 0.4 takes.
     const double up = dark.sky(0), low = dark.sky(58 * 256);
     const double stars = 205 * std::pow(10, -0.4 * (10 + 26.74)) * 3282.8;
     CHECK(up > 0.7 * stars);

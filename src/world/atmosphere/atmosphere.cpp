@@ -41,16 +41,18 @@ Status add_to_map(const FarLight& by, const Atmosphere& air, int threads, Image&
     return Status::ok();
 }
 
-/// The light behind the air, as it comes through it.
+/// The light behind the air, as it comes through it: of stars their mean.
 void add_glow_to_map(const Atmosphere& air, Image& map) {
-    if (air.glow == Double3{}) return;
+    if (air.glow == Double3{} && !air.stars.present()) return;
+    const Double3 even = air.stars.present() ? air.stars.even * air.sun().above : Double3{};
     for (int row = 0; row < kMapRows; ++row) {
         const double up = sincos_deg((row + 0.5) * 180.0 / kMapRows).cosine;
-        const std::array<double, 3> light = glow_at(air.tables, air.height_km, up);
+        const std::array<double, 3> light = glow_at(air.tables, air.height_km, up),
+                                    left = wide_left(air.tables, air.height_km, up);
         for (std::size_t c = 0; c < 3; ++c)
             for (int i = 0; i < kMapColumns; ++i)
                 map.channels[c].pixels[std::size_t(row * kMapColumns + i)] +=
-                    float(light[c] * air.glow[int(c)]);
+                    float(light[c] * air.glow[int(c)] + left[c] * even[int(c)]);
     }
 }
 
@@ -244,6 +246,7 @@ Status light_atmosphere(const AtmosphereSettings& s, const Sun& sun, const Groun
         PILEUS_TRY(made);
     }
     air.height_km = height_m > 0 ? 1e-3 * height_m : 0;
+    PILEUS_TRY(turn_stars(night, air.stars));
     choose_light(s, sun, night, below.present, air);
     air.sunlight = sunlight(air.tables, air.height_km, sincos_deg(air.elevation_deg).sine);
     air.camera_km = -1;

@@ -7,6 +7,7 @@
 #include "src/io/images/image.h"
 #include "src/scene/scene.h"
 #include "src/world/atmosphere/air_sky.h"
+#include "src/world/atmosphere/stars.h"
 
 namespace pileus {
 
@@ -43,7 +44,9 @@ struct Atmosphere : FarLight {
     bool has_moon = false;   ///< one of both is it
     bool moonlit = false;    ///< the first is it
     bool two_skies = false;  ///< the other's sky is more than a thousandth
-    Double3 glow{};          ///< radiance of what is behind the air, straight up, even
+    double moon_radius_deg = 0;
+    Double3 glow{};  ///< radiance of airglow straight up
+    Stars stars;     ///< none without their key
 
     bool present() const { return tables.present(); }
     const FarLight& sun() const { return moonlit ? other : *this; }

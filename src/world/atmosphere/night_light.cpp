@@ -13,7 +13,6 @@ namespace {
 /// Airglow and zodiacal light straight up, over the sun's irradiance above the air: 205 stars of
 /// magnitude 10 per square degree (Leinert et al. 1998), 1.8e-4 cd/m2 under a sun of 1.3e5 lux; the
 /// lines of oxygen make it a little green.
-constexpr double kStarOfTen = 6.65e-12;
 constexpr double kAirglow[3] = {0.95 * 205 * kStarOfTen, 1.03 * 205 * kStarOfTen,
                                 0.85 * 205 * kStarOfTen};
 constexpr double kGlowKm = 90;
@@ -56,19 +55,28 @@ bool moment_shown(const AtmosphereSettings& s, double hours_later, Moment& momen
 
 }  // namespace
 
-std::array<double, 3> glow_at(const AirTables& tables, double height_km, double cosine) {
+std::array<double, 3> wide_left(const AirTables& tables, double height_km, double cosine) {
     std::array<double, 3> out{};
-    const double r = kEarthRadiusKm + (height_km > 0 ? height_km : 0);
-    const double layer = kEarthRadiusKm + kGlowKm, low = kEarthRadiusKm / r;
+    const double high = height_km > 0 ? height_km : 0;
+    const double low = kEarthRadiusKm / (kEarthRadiusKm + high);
     const double horizon = -__builtin_sqrt(1 - low * low);
-    if (cosine < horizon || r >= layer) return out;
+    if (cosine < horizon) return out;
+    // A hair above the horizon, where no disc would be cut.
+    const double clear = cosine > horizon + 0.01 ? cosine : horizon + 0.01;
+    const std::array<double, 3> left = sunlight(tables, high, clear);
+    for (std::size_t c = 0; c < 3; ++c) out[c] = left[c] + 0.5 * (1 - left[c]);
+    return out;
+}
+
+std::array<double, 3> glow_at(const AirTables& tables, double height_km, double cosine) {
+    const double r = kEarthRadiusKm + (height_km > 0 ? height_km : 0);
+    const double layer = kEarthRadiusKm + kGlowKm;
+    if (r >= layer) return {};
     // van Rhijn: a thin shell.
     const double across = r / layer, square = 1 - across * across * (1 - cosine * cosine);
     const double longer = 1 / __builtin_sqrt(square);
-    // A hair above the horizon, where no disc would be cut.
-    const double clear = cosine > horizon + 0.01 ? cosine : horizon + 0.01;
-    const std::array<double, 3> left = pileus::sunlight(tables, r - kEarthRadiusKm, clear);
-    for (std::size_t c = 0; c < 3; ++c) out[c] = longer * __builtin_sqrt(left[c]);
+    std::array<double, 3> out = wide_left(tables, height_km, cosine);
+    for (double& v : out) v *= longer;
     return out;
 }
 
@@ -81,6 +89,7 @@ void choose_light(const AtmosphereSettings& s, const Sun& sun, const Night& nigh
     for (int c = 0; c < 3 && s.airglow; ++c) air.glow[c] = kAirglow[c] * above[c];
     aim_light(above, sun.azimuth_deg, sun.elevation_deg, air);
     air.has_moon = night.moon;
+    air.moon_radius_deg = night.moon_radius_deg;
     if (!night.moon) return;
     Double3 moon;
     // As a sun of this irradiance has it.
@@ -91,7 +100,9 @@ void choose_light(const AtmosphereSettings& s, const Sun& sun, const Night& nigh
         aim_light(air.other.above, air.other.azimuth_deg, air.other.elevation_deg, air);
         aim_light(above, sun.azimuth_deg, sun.elevation_deg, air.other);
     }
-    const double glow = kPi64 * luminance(air.glow[0], air.glow[1], air.glow[2]);
+    Double3 even = air.glow;
+    if (air.stars.present()) even += air.stars.even * above;
+    const double glow = kPi64 * luminance(even[0], even[1], even[2]);
     air.two_skies = level_sky_of(air.other, air) > kOtherShare * (level_sky_of(air, air) + glow);
 }
 

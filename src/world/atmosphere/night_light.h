@@ -13,10 +13,13 @@ namespace pileus {
 void choose_light(const AtmosphereSettings& settings, const Sun& sun, const Night& night,
                   bool ground, Atmosphere& air);
 
-/// How much of an even light of 1 behind the air comes down a direction with this cosine to the
-/// vertical: longer ways through the glowing layer, 90 km up, and what air leaves of it. 0 towards
-/// the earth, and above the layer. Air that scatters light out of a wide light scatters as much of
-/// it in, so that the root of what it leaves is taken.
+/// What comes of a wide even light behind the air, in a direction with this cosine to the vertical:
+/// half of what the air takes it scatters in again, for light is all around it but from below. 0
+/// towards the earth.
+std::array<double, 3> wide_left(const AirTables& tables, double height_km, double cosine);
+
+/// The same of a layer that glows evenly, 90 km up, of 1 straight up: longer ways through it. 0
+/// above the layer.
 std::array<double, 3> glow_at(const AirTables& tables, double height_km, double cosine);
 
 }  // namespace pileus
