@@ -16,10 +16,20 @@
 
 namespace {
 
-pileus::Scene scene_in_air(const std::vector<std::string>& overrides) {
+/// `dusk`: lit by the moon, with twilight left, airglow and stars.
+pileus::Scene scene_in_air(const std::vector<std::string>& overrides, bool dusk = false) {
     std::string text = kFlightScene;
     const std::string sky = "[sky]\nradiance = [0.05, 0.07, 0.11]";
+    const std::string sun = "[sun]\nazimuth_deg = 120\nelevation_deg = 35\n";
     text.replace(text.find(sky), sky.size(), "[atmosphere]\nturbidity = 4");
+    if (dusk) {
+        text.replace(text.find(sun), sun.size(), "");
+        const std::string air = "[atmosphere]\n";
+        text.replace(text.find(air), air.size(),
+                     air +
+                         "date = 2026-09-22\ntime = 19:40:00\nlatitude_deg = 28.3\n"
+                         "longitude_deg = -16.6\nmoon = true\nstars = true\nairglow = true\n");
+    }
     pileus::Scene scene;
     const pileus::Status read =
         pileus::read_scene_text(text.c_str(), "scene", "", overrides, scene);
@@ -71,9 +81,12 @@ std::vector<std::uint64_t> ordinary(const pileus::Scene& scene, int frames) {
 
 TEST_CASE("in clear air every method flies in the block it is told, with the hashes of sessions") {
     constexpr int kFrames = 4;
-    for (const char* method : {"collectors", "raymarch", "optical-depth", "photon-grid", "path"}) {
+    for (const char* method :
+         {"collectors", "raymarch", "optical-depth", "photon-grid", "path", "dusk"}) {
         CAPTURE(std::string(method));
-        const pileus::Scene scene = scene_in_air({std::string("method.name=") + method});
+        const bool dusk = method == std::string("dusk");
+        const pileus::Scene scene =
+            scene_in_air({std::string("method.name=") + (dusk ? "raymarch" : method)}, dusk);
         const std::vector<std::uint64_t> expected = ordinary(scene, kFrames);
         const std::string bytes = packed(scene);
         pileus_error error;

@@ -110,6 +110,28 @@ TEST_CASE("moonlight: every method takes the moon for the sun") {
     }
 }
 
+TEST_CASE("moonlight: particles, too") {
+    Scene placed = scene_from(at_night());
+    REQUIRE(place_scene(placed, nullptr));
+    const auto of_particles = [](std::string text) {
+        const std::size_t begin = text.find("density ="), end = text.find("[photon_grid]");
+        text.replace(begin, end - begin,
+                     "density = \"assets/scenes/golden/data/puff.csv\"\nalbedo = 1.0\n");
+        return text;
+    };
+    const std::vector<std::string> keys = {
+        "method.name=particles", "output.layers=[\"radiance\", \"alpha\"]",
+        "camera.position_m=[0, -1500, 700]", "camera.target_m=[0, 0, 800]"};
+    const Picture moon = render_one(scene_from(of_particles(at_night()), keys)),
+                  sun = render_one(scene_from(of_particles(by_sun(placed)), keys));
+    CHECK(sum_of(moon, "A").value > 5);
+    for (const char* channel : {"R", "G", "B"}) {
+        CHECK(sum_of(moon, channel).value > 0);
+        CHECK(sum_of(moon, channel).value ==
+              doctest::Approx(sum_of(sun, channel).value).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("moonlight: pictures are as bright as the sun's irradiance, in every method") {
     // A power of two changes no digit: nothing dim is dropped on the way.
     for (const char* method : {"collectors", "raymarch", "optical-depth", "photon-grid", "path"}) {
