@@ -218,6 +218,52 @@ TEST_CASE("moonlight: nothing jumps while the sun sets") {
     }
 }
 
+TEST_CASE("moonlight: suns and moons at the ends of their ranges") {
+    for (const double moon_deg : {90.0, 0.0, -90.0}) {
+        Lit lit(0, moon_deg, false);
+        Lit without(0, moon_deg, false);
+        without.scene.night = Night{};
+        for (const double sun_deg : {0.0, -18.0, -90.0, 90.0}) {
+            CAPTURE(moon_deg);
+            CAPTURE(sun_deg);
+            lit.scene.night.moon_light = {2.7e-6, 2.5e-6, 2.1e-6};
+            lit.to(sun_deg);
+            for (const float v : lit.environment.sky_map.radiance.span()) REQUIRE(v >= 0);
+            CHECK(lit.moonlit() == (moon_deg >= 0 && sun_deg < 0));
+            // A new moon is none, to the bit.
+            lit.scene.night.moon_light = {};
+            lit.to(sun_deg);
+            without.to(sun_deg);
+            CHECK_FALSE(lit.moonlit());
+            CHECK_FALSE(lit.environment.air.two_skies);
+            CHECK(lit.environment.sky_map.radiance.size() ==
+                  without.environment.sky_map.radiance.size());
+            bool same = true;
+            for (std::size_t i = 0; i < lit.environment.sky_map.radiance.size(); ++i)
+                same = same && lit.environment.sky_map.radiance[i] ==
+                                   without.environment.sky_map.radiance[i];
+            CHECK(same);
+            CHECK(lit.light.sun_irradiance == without.light.sun_irradiance);
+        }
+    }
+}
+
+TEST_CASE("moonlight: the second sky is worked out at dusk alone") {
+    Lit lit(0, 40, true);
+    double first = 90, last = 90;
+    for (int tenth = 100; tenth >= -400; tenth -= 2) {
+        lit.to(0.1 * tenth);
+        if (!lit.environment.air.two_skies) continue;
+        if (first == 90) first = 0.1 * tenth;
+        last = 0.1 * tenth;
+    }
+    // A full moon's sky is a millionth of a sun's by day; from where it has the beams on the sun's
+    // is the other; twilight ends at 18 degrees.
+    CHECK(std::abs(first) < 0.01);
+    CHECK(last < -15);
+    CHECK(last > -22);
+}
+
 TEST_CASE("moonlight: airglow is the sky of a moonless night, brighter towards the horizon") {
     const Lit dark(-90, -90, true, true), black(-90, -90, true, false);
     // 205 stars of magnitude 10 per square degree, of magnitudes below a sun of -26.74, less half
