@@ -195,6 +195,9 @@ void add_metar_air(MetarDraft& draft) {
 
     sky.turbidity = kMetarClearTurbidity;
     double fall_per_m = fall.extinction_per_m;
+    // What falls all around dims no more than is told.
+    if (seen.given && fall.kind != nullptr && !fall.showers)
+        fall_per_m = std::min(fall_per_m, kMetarKoschmieder / seen.m);
     if (visibility_m > 0) {
         const double all_per_m = kMetarKoschmieder / visibility_m;
         const double share = fall.showers ? kMetarShaftCoverage[fall.intensity] : 1;
@@ -228,15 +231,18 @@ void add_metar_air(MetarDraft& draft) {
         cloud.base_m = draft.settings.field_elevation_m + top_of_sight_m;
         cloud.top_m = cloud.base_m + kMetarNimbostratus.thickness_m;
         cloud.coverage = metar_coverage(MetarCover::kOvercast);
+        cloud.extinction_per_m = kMetarNimbostratus.extinction_per_m;
         draft.add(cloud);
         draft.lowest_ceiling_m = top_of_sight_m;
         draft.note("sky hidden by precipitation: nimbostratus at " + metres(top_of_sight_m) +
                    " assumed");
     }
     if (fall.kind != nullptr) {
-        const double top_m = draft.lowest_ceiling_m > 0 ? draft.lowest_ceiling_m
-                             : draft.lowest_m > 0       ? draft.lowest_m
-                                                        : kMetarFallTop_m;
+        // Veils of ice send nothing down to the ground.
+        const auto rains = [](double m) { return m > 0 && m <= kMetarHigh_m; };
+        const double top_m = rains(draft.lowest_ceiling_m) ? draft.lowest_ceiling_m
+                             : rains(draft.lowest_m)       ? draft.lowest_m
+                                                           : kMetarFallTop_m;
         add_fall(draft, fall, fall_per_m, top_m);
     }
 }

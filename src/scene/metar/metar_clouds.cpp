@@ -146,8 +146,7 @@ void add_metar_clouds(MetarDraft& draft) {
         const Placed& placed = all[i];
         const bool tower = placed.cloud.tower != MetarTower::kNone;
         if (draft.lowest_m < 0) draft.lowest_m = placed.height_m;
-        const bool ceiling = is_ceiling(placed.cloud) ||
-                             placed.cloud.tower == MetarTower::kCumulonimbus;
+        const bool ceiling = is_ceiling(placed.cloud) || tower;
         if (ceiling && draft.lowest_ceiling_m < 0) draft.lowest_ceiling_m = placed.height_m;
         if (tower && !is_ceiling(placed.cloud)) {
             draft.add_towers(placed.cloud.tower == MetarTower::kCumulonimbus ? kMetarCumulonimbus

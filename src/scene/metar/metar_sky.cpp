@@ -56,8 +56,9 @@ void MetarDraft::add(const MetarMedium& medium) {
     metar_wind_at(report, settings.southern, height_m, wind);
     std::string text = camera_text(settings.field_elevation_m + 100);
     text += "[[medium]]\ndensity = \"procedural:sky\"\n";
-    // A sheet without bounds has a box 50 m lower than its base, below the ground.
-    if (medium.on_ground) {
+    // A sheet without bounds has a box 50 m lower than its base, which may not be below the ground.
+    const bool bounded = medium.on_ground || height_m < kMetarSpare_m;
+    if (bounded) {
         const std::string reach = number(settings.scale_radius_km * 1000);
         text += "bounds_m = [[-" + reach + ", -" + reach + ", " + number(medium.base_m) + "], [" +
                 reach + ", " + reach + ", " + number(medium.top_m) + "]]\n";
@@ -69,7 +70,7 @@ void MetarDraft::add(const MetarMedium& medium) {
     text += "sky = { type = \"" + medium.type + "\", base_m = " + number(medium.base_m) +
             ", top_m = " + number(medium.top_m);
     if (medium.coverage >= 0) text += ", coverage = " + number(medium.coverage);
-    if (!medium.on_ground) text += ", planet_radius_m = 6371000";
+    if (!bounded) text += ", planet_radius_m = 6371000";
     text += ", wind_m_per_s = [" + number(wind[0]) + ", " + number(wind[1]) +
             "], seed = " + std::to_string(next_seed());
     if (!medium.shape.empty()) text += ", " + medium.shape;

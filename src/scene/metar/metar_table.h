@@ -14,6 +14,8 @@ constexpr double kMetarStratus_m = 400;
 constexpr double kMetarNimbostratus_m = 3000;
 // A reported height of 000 is below 30 m (Annex 3): its middle.
 constexpr double kMetarLeastBase_m = 15;
+// Sheets that are lower have bounds, and lie level: see MetarDraft::add.
+constexpr double kMetarSpare_m = 60;
 // Where no height is told: chosen.
 constexpr double kMetarUntoldBase_m = 900;
 // A sheet ends so far below the next one, and is at least so thick: chosen.
@@ -56,8 +58,8 @@ constexpr MetarSheet kMetarHumilis = {"cumulus", "cumulus", 400, 0, "", ""};
 constexpr MetarSheet kMetarMediocris = {"cumulus", "cumulus", 700, 0, "", ""};
 constexpr MetarSheet kMetarStratus = {"stratus", "stratus", 300, 0, "", ""};
 constexpr MetarSheet kMetarStratocumulus = {"stratocumulus", "stratocumulus", 400, 0, "", ""};
-constexpr MetarSheet kMetarNimbostratus = {"nimbostratus", "nimbostratus", 2500, 0, "", ""};
-constexpr MetarSheet kMetarThunder = {"cumulonimbus", "cumulonimbus", 8000, 0, "", ""};
+constexpr MetarSheet kMetarNimbostratus = {"nimbostratus", "nimbostratus", 2500, 0.02, "", ""};
+constexpr MetarSheet kMetarThunder = {"cumulonimbus", "cumulonimbus", 8000, 0.0125, "", ""};
 constexpr MetarSheet kMetarTowering = {"cumulus", "cumulus", 3000, 0, "", ""};
 constexpr MetarSheet kMetarAltocumulus = {"altocumulus", "custom",          200,
                                           0.03,          kMetarMiddleDrops, kMetarCells};
