@@ -66,8 +66,8 @@ const MetarDimming* find_dimming(MetarDraft& draft, std::vector<std::string>& pa
             } else if (what == "FG" && (weather.descriptor == "BC" || weather.descriptor == "PR" ||
                                         weather.descriptor == "MI")) {
                 patches.push_back(weather.descriptor);
-            } else if (row != nullptr && found == nullptr) {
-                found = row;
+            } else if (row != nullptr && (found == nullptr || row == &kMetarDimmings[0])) {
+                found = row;  // fog before all others: its droplets dim most
             } else if (what == "FC" || what == "SQ" || what == "PO" || what == "PY") {
                 draft.note(what + ": left out");
             }
@@ -113,7 +113,7 @@ void add_fall(MetarDraft& draft, const Fall& fall, double extinction_per_m, doub
         medium.shape = noise + "threshold_low = 0.45, threshold_high = 0.65";
     } else {
         medium.extinction_per_m = 2 * extinction_per_m;
-        medium.shape = noise + "threshold_low = 0.1, threshold_high = 0.9";
+        medium.shape = noise + "threshold_low = 0, threshold_high = 1";
     }
     draft.add(medium);
     draft.note(std::string(fall.kind->name) + ": up to " + metres(top_m) + ", " +
@@ -196,8 +196,11 @@ void add_metar_air(MetarDraft& draft) {
     sky.turbidity = kMetarClearTurbidity;
     double fall_per_m = fall.extinction_per_m;
     // What falls all around dims no more than is told.
-    if (seen.given && fall.kind != nullptr && !fall.showers)
-        fall_per_m = std::min(fall_per_m, kMetarKoschmieder / seen.m);
+    if (seen.given && fall.kind != nullptr && !fall.showers) {
+        const double all_per_m = kMetarKoschmieder / seen.m;
+        const double most_per_m = all_per_m - haze_of(kMetarClearTurbidity);
+        fall_per_m = std::min(fall_per_m, std::max(most_per_m, 0.1 * all_per_m));
+    }
     if (visibility_m > 0) {
         const double all_per_m = kMetarKoschmieder / visibility_m;
         const double share = fall.showers ? kMetarShaftCoverage[fall.intensity] : 1;

@@ -53,7 +53,10 @@ MetarForm read_miles(std::string_view word, int whole, MetarVisibility& out, Sta
     out.m = (whole + double(number) / parts) * kMile_m;
     // Automatic stations end at 10 miles: that is "10 or more" (FMH-1, 12.6.6).
     const bool most = !fraction && number == 10;
-    out.bound = less ? MetarBound::kLess : more || most ? MetarBound::kMore : MetarBound::kExact;
+    // 0 is less than the least other value, a sixteenth.
+    const bool none = !fraction && number == 0;
+    if (none) out.m = kMile_m / 16;
+    out.bound = less || none ? MetarBound::kLess : more || most ? MetarBound::kMore : MetarBound::kExact;
     return MetarForm::kRead;
 }
 

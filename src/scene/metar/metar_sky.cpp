@@ -95,10 +95,10 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
     row.near_m = towers.near_m;
     row.far_m = settings.scale_radius_km * 1000;
     if (row.far_m > towers.most_far_m) row.far_m = towers.most_far_m;
-    // A ring that holds none of them is made wide enough for one.
-    if (row.far_m < row.near_m + kMetarTowerRoom_m) {
-        row.far_m = row.near_m + kMetarTowerRoom_m;
-        if (&towers == &kMetarCumulonimbus) row.count = 1;
+    // A ring without room for them is made wide enough for one.
+    if (row.far_m < row.near_m + towers.room_m) {
+        row.far_m = row.near_m + towers.room_m;
+        row.count = 1;
     }
     row.seed = next_seed();
     note(std::string(towers.name) + ": " + std::to_string(row.count) +

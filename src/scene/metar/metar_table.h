@@ -78,11 +78,12 @@ struct MetarTowers {
     const char* type;  ///< of [medium.cloud]
     int few, scattered;
     double near_m, most_far_m;
+    double room_m;  ///< ring beyond near_m in which all of them have room; a narrower one takes one
 };
-constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 2, 3, 15000, 1e6};
-constexpr MetarTowers kMetarCongestus = {"congestus", "cumulus-congestus", 12, 30, 3000, 25000};
-// The widest circle around a cumulonimbus' box: fewer stand where the ring has no room.
-constexpr double kMetarTowerRoom_m = 20000;
+constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 2, 3, 15000, 1e6,
+                                             20000};
+constexpr MetarTowers kMetarCongestus = {"congestus", "cumulus-congestus", 12, 30, 3000, 25000,
+                                          12000};
 
 // Wind: that of the ground times 1 + h/1 km up to 2 at 1 km, the top of the layer of friction, and
 // 0.1 more for each further km; turned by up to 25 degrees at 1 km, to the right in the north.
