@@ -15,6 +15,7 @@
     ROW(heights)                 \
     ROW(les)                     \
     ROW(mesh)                    \
+    ROW(metar)                   \
     ROW(netcdf)                  \
     ROW(nvdb)                    \
     ROW(overrides)               \

@@ -30,11 +30,15 @@ inline std::string summary(const Metar& m) {
         else
             add(" %03.0f/%.1f", m.wind.from_deg, m.wind.speed_m_per_s);
         if (m.wind.gust_m_per_s > 0) add("G%.1f", m.wind.gust_m_per_s);
-        if (m.wind.sector_to_deg > 0) add("V%.0f-%.0f", m.wind.sector_from_deg, m.wind.sector_to_deg);
+        if (m.wind.sector_to_deg > 0)
+            add("V%.0f-%.0f", m.wind.sector_from_deg, m.wind.sector_to_deg);
     }
     if (m.visibility.given) {
         const MetarBound bound = m.visibility.bound;
-        add(" v%s%.0f", bound == MetarBound::kLess ? "<" : bound == MetarBound::kMore ? ">" : "",
+        add(" v%s%.0f",
+            bound == MetarBound::kLess   ? "<"
+            : bound == MetarBound::kMore ? ">"
+                                         : "",
             m.visibility.m);
         if (m.visibility.no_directions) text += "NDV";
         if (m.visibility.least_m > 0)
@@ -211,8 +215,7 @@ constexpr Report kReports[] = {
      "EGXE 12-1650 270/4.6 v>10000 FEW1219 T11/4 Q1017"},
     {"METAR ENHE 121650Z AUTO 20038KT 9999NDV OVC013/// 09/07 Q0988 W11/S5",
      "ENHE AUTO 12-1650 200/19.5 v>10000NDV OVC396 T9/7 Q988"},
-    {"METAR EPWA 121700Z /////KT //// // ////// 05/04 Q////",
-     "EPWA 12-1700 ? T5/4"},
+    {"METAR EPWA 121700Z /////KT //// // ////// 05/04 Q////", "EPWA 12-1700 ? T5/4"},
     {"METAR ULLI 121700Z 21006MPS 9999 //////CB 16/10 Q1009",
      "ULLI 12-1700 210/6.0 v>10000 ?CB T16/10 Q1009"},
     {"METAR COR LKPR 121700Z 25020G32KT CAVOK 14/03 Q1012 NOSIG",

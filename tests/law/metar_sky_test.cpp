@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A METAR becomes scenes that the reader of scenes takes, with heights, cover, wind and visibility
 // as reported. in: reports -> out: pass or fail. docs/metar.md
+#include "src/scene/metar/metar_sky.h"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <set>
 
-#include "src/scene/metar/metar_sky.h"
 #include "src/scene/read_scene.h"
 #include "tests/law/metar_reports.h"
 
@@ -108,8 +109,7 @@ TEST_CASE("metar sky: every text is a scene, and lies above the field") {
             }
             CHECK(sky.turbidity >= 1);
             CHECK(sky.turbidity <= 10);
-            for (const std::string& note : sky.notes)
-                CHECK(note.find('\n') == std::string::npos);
+            for (const std::string& note : sky.notes) CHECK(note.find('\n') == std::string::npos);
         }
     for (const char* kind : {"cumulus", "stratocumulus", "stratus", "nimbostratus", "altocumulus",
                              "altostratus", "cirrus", "cirrostratus", "cumulonimbus", "fog", "mist",
@@ -131,7 +131,8 @@ TEST_CASE("metar sky: height, cover and wind of a layer") {
     CHECK(cumulus.sky.coverage == near(1.5 / 8));
     CHECK(cumulus.sky.planet_radius_m == 6371000);
     CHECK(!cumulus.box.has_bounds);
-    const double speed = 12 * 1852.0 / 3600 * 1.6096, from = (240 + 25 * 0.6096) / 57.29577951308232;
+    const double speed = 12 * 1852.0 / 3600 * 1.6096,
+                 from = (240 + 25 * 0.6096) / 57.29577951308232;
     CHECK(cumulus.sky.wind_m_per_s[0] == near(-std::sin(from) * speed));
     CHECK(cumulus.sky.wind_m_per_s[1] == near(-std::cos(from) * speed));
     CHECK(sky.day == 12);
@@ -154,15 +155,13 @@ TEST_CASE("metar sky: kinds of sheets by height, cover and rain") {
     const struct {
         const char* groups;
         const char* name;
-    } kRows[] = {{"FEW020", "cumulus"},          {"SCT050", "cumulus"},
-                 {"SCT005", "stratus"},          {"BKN005", "stratus"},
-                 {"BKN030", "stratocumulus"},    {"OVC030", "stratocumulus"},
-                 {"-RA OVC030", "nimbostratus"}, {"SN OVC080", "nimbostratus"},
-                 {"SHRA OVC030", "strato"},      {"-DZ OVC005", "stratus"},
-                 {"FEW080", "altocumulus"},      {"BKN120", "altocumulus"},
-                 {"OVC120", "altostratus"},      {"-RA OVC120", "altostratus"},
-                 {"FEW250", "cirrus"},           {"OVC250", "cirrostratus"},
-                 {"BKN030CB", "cumulonimbus"},   {"BKN030TCU", "cumulus"}};
+    } kRows[] = {
+        {"FEW020", "cumulus"},          {"SCT050", "cumulus"},         {"SCT005", "stratus"},
+        {"BKN005", "stratus"},          {"BKN030", "stratocumulus"},   {"OVC030", "stratocumulus"},
+        {"-RA OVC030", "nimbostratus"}, {"SN OVC080", "nimbostratus"}, {"SHRA OVC030", "strato"},
+        {"-DZ OVC005", "stratus"},      {"FEW080", "altocumulus"},     {"BKN120", "altocumulus"},
+        {"OVC120", "altostratus"},      {"-RA OVC120", "altostratus"}, {"FEW250", "cirrus"},
+        {"OVC250", "cirrostratus"},     {"BKN030CB", "cumulonimbus"},  {"BKN030TCU", "cumulus"}};
     for (const auto& row : kRows) {
         CAPTURE(row.groups);
         const MetarSky sky = sky_of("EDDF 121845Z 9999 " + std::string(row.groups));
@@ -210,13 +209,20 @@ TEST_CASE("metar sky: the reported visibility is that of the air and its layers"
         const char* groups;
         const char* name;
         double m;
-    } kRows[] = {{"0200 FG VV001", "fog", 200},     {"0800 FG NSC", "fog", 800},
-                 {"3000 BR NSC", "mist", 3000},     {"2000 HZ NSC", "haze", 2000},
-                 {"1500 FU NSC", "smoke", 1500},    {"0500 +DS NSC", "dust", 500},
-                 {"4000 NSC", "mist", 4000},        {"1/2SM FG OVC002", "fog", 804.672},
-                 {"0600 FU FG NSC", "fog", 600},    {"0400 +SN VV004", "snow", 400},
-                 {"1500 SN OVC010", "snow", 1500},  {"FG VV002", "fog", 60.96},
-                 {"FG", "fog", 500},                {"5000 SN OVC010", "snow", 5000}};
+    } kRows[] = {{"0200 FG VV001", "fog", 200},
+                 {"0800 FG NSC", "fog", 800},
+                 {"3000 BR NSC", "mist", 3000},
+                 {"2000 HZ NSC", "haze", 2000},
+                 {"1500 FU NSC", "smoke", 1500},
+                 {"0500 +DS NSC", "dust", 500},
+                 {"4000 NSC", "mist", 4000},
+                 {"1/2SM FG OVC002", "fog", 804.672},
+                 {"0600 FU FG NSC", "fog", 600},
+                 {"0400 +SN VV004", "snow", 400},
+                 {"1500 SN OVC010", "snow", 1500},
+                 {"FG VV002", "fog", 60.96},
+                 {"FG", "fog", 500},
+                 {"5000 SN OVC010", "snow", 5000}};
     for (const auto& row : kRows) {
         CAPTURE(row.groups);
         const MetarSky sky = sky_of("EDDF 121845Z " + std::string(row.groups));
@@ -240,14 +246,13 @@ TEST_CASE("metar sky: precipitation from the ground to the clouds") {
     const struct {
         const char* groups;
         double per_km, top_m, coverage;
-    } kRows[] = {
-        // 0.365 R^0.63 at 1, 5 and 20 mm/h, in shafts; three digits in the table.
-        {"9999 -SHRA SCT020 BKN030", 0.365, 914.4, 0.25},
-        {"9999 SHRA SCT030", 0.365 * std::pow(5.0, 0.63), 914.4, 0.4},
-        {"9999 +TSRA FEW020 SCT040CB", 0.365 * std::pow(20.0, 0.63), 1219.2, 0.6},
-        {"9999 -SHSN OVC010", 2.6, 304.8, 0.25},
-        {"9999 -SHRA NCD", 0.365, 1500, 0.25},
-        {"9999 -SHRA OVC250", 0.365, 1500, 0.25}};
+    } kRows[] = {// 0.365 R^0.63 at 1, 5 and 20 mm/h, in shafts; three digits in the table.
+                 {"9999 -SHRA SCT020 BKN030", 0.365, 914.4, 0.25},
+                 {"9999 SHRA SCT030", 0.365 * std::pow(5.0, 0.63), 914.4, 0.4},
+                 {"9999 +TSRA FEW020 SCT040CB", 0.365 * std::pow(20.0, 0.63), 1219.2, 0.6},
+                 {"9999 -SHSN OVC010", 2.6, 304.8, 0.25},
+                 {"9999 -SHRA NCD", 0.365, 1500, 0.25},
+                 {"9999 -SHRA OVC250", 0.365, 1500, 0.25}};
     for (const auto& row : kRows) {
         CAPTURE(row.groups);
         const MetarSky sky = sky_of("EDDF 121845Z 24012KT " + std::string(row.groups) + " 02/01");
@@ -259,7 +264,7 @@ TEST_CASE("metar sky: precipitation from the ground to the clouds") {
         CHECK(fall.optics.albedo == Float3{1, 1, 1});
         CHECK(fall.sky.wind_m_per_s[0] > 0);  // from the south-west
     }
-    // All around it dims no more than is told: 1 /km in 10 km becomes 0.31 /km.
+    // All around it dims no more than is reported: 1 /km in 10 km becomes 0.31 /km.
     const MetarSky wide = sky_of("EDDF 121845Z 9999 RA OVC010");
     CHECK(layer(wide, "rain").optics.extinction_per_m / 2 == near(3.912 / 10000 - 0.0972 / 1200));
     CHECK(has_layer(sky_of("EDDF 121845Z 5000 UP OVC010 M02/M03"), "snow"));
@@ -268,17 +273,17 @@ TEST_CASE("metar sky: precipitation from the ground to the clouds") {
     CHECK(!has_layer(sky_of("EDDF 121845Z 9999 DRSN BKN030"), "snow"));
 }
 
-TEST_CASE("metar sky: what is not told is assumed with a note") {
+TEST_CASE("metar sky: what is not reported is assumed with a note") {
     CHECK(has_note(sky_of("EDDF 121845Z 9999 NCD"), "NCD"));
     CHECK(has_note(sky_of("KJFK 121845Z 10SM CLR"), "CLR"));
     CHECK(has_note(sky_of("EDDF 121845Z CAVOK"), "CAVOK"));
     CHECK(has_note(sky_of("EDDF 121845Z 9999 BKN///"), "base of BKN"));
     CHECK(has_note(sky_of("EDDF 121845Z 9999 ///020"), "amount of clouds"));
-    CHECK(has_note(sky_of("EDDF 121845Z 9999 //////"), "clouds: not told"));
-    CHECK(has_note(sky_of("EDDF 121845Z 9999"), "clouds: not told"));
-    CHECK(has_note(sky_of("EDDF 121845Z FEW020"), "visibility: not told"));
-    CHECK(has_note(sky_of("EDDF 24010KT FEW020"), "time: not told"));
-    CHECK(has_note(sky_of("EDDF 121845Z FEW020"), "wind: not told"));
+    CHECK(has_note(sky_of("EDDF 121845Z 9999 //////"), "clouds: not reported"));
+    CHECK(has_note(sky_of("EDDF 121845Z 9999"), "clouds: not reported"));
+    CHECK(has_note(sky_of("EDDF 121845Z FEW020"), "visibility: not reported"));
+    CHECK(has_note(sky_of("EDDF 24010KT FEW020"), "time: not reported"));
+    CHECK(has_note(sky_of("EDDF 121845Z FEW020"), "wind: not reported"));
     CHECK(has_note(sky_of("EDDF 121845Z 9999 VCFG +FC FEW020"), "FC: left out"));
 }
 

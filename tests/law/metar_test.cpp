@@ -96,10 +96,11 @@ TEST_CASE("metar: visibilities") {
 }
 
 TEST_CASE("metar: what looks like weather and is none is set aside") {
-    for (const char* word : {"RAX", "-", "+", "VC", "SH", "RASNPLGR", "XXRA", "--RA", "SHTSRA",
-                             "FEW02", "FEW0200", "OVC010CBX", "V010", "VV01", "24/", "M1/M2", "Q101",
-                             "Q9999", "A0001", "R24", "1/2", "24010", "24010KTX", "99999999999SM",
-                             "BKN", "W1/S", "RE", "REXX"}) {
+    for (const char* word : {"RAX",   "-",    "+",      "VC",    "SH",       "RASNPLGR",
+                             "XXRA",  "--RA", "SHTSRA", "FEW02", "FEW0200",  "OVC010CBX",
+                             "V010",  "VV01", "24/",    "M1/M2", "Q101",     "Q9999",
+                             "A0001", "R24",  "1/2",    "24010", "24010KTX", "99999999999SM",
+                             "BKN",   "W1/S", "RE",     "REXX"}) {
         CAPTURE(word);
         const Metar m = read("EDDF 121650Z " + std::string(word) + " 5000");
         const bool dry_dew = std::string(word) == "24/";  // a temperature without a dew point
@@ -140,22 +141,25 @@ TEST_CASE("metar: hostile texts end in one line or are listed") {
           std::string("METAR"), std::string("METAR EDDF"), std::string("AUTO COR"),
           std::string(4096, 'A'), std::string(5000, ' '), std::string("\x01\x80\xff\0\x1b[2J", 7)})
         CHECK(fault_of(text) != "");
-    CHECK(fault_of(std::string(4097, 'A')) ==
-          "metar: too long, 4097 bytes, allowed: up to 4096");
-    const Metar m = read(std::string("EDDF 121650Z 5000 \x1b[31m \xff\xfe ") + std::string(900, '9') +
-                         " " + std::string(900, '/'));
+    CHECK(fault_of(std::string(4097, 'A')) == "metar: too long, 4097 bytes, allowed: up to 4096");
+    const Metar m = read(std::string("EDDF 121650Z 5000 \x1b[31m \xff\xfe ") +
+                         std::string(900, '9') + " " + std::string(900, '/'));
     REQUIRE(m.not_understood.size() == 4);
     CHECK(m.not_understood[0] == "\\x1b[31M");
     CHECK(m.not_understood[1] == "\\xff\\xfe");
     for (const std::string& text : m.not_understood) CHECK(text.size() <= 320);
     std::string many = "EDDF 121650Z";
     while (many.size() + 7 <= kMaxMetarBytes) many += " FEW001";
-    CHECK(read(many).clouds.size() > 500);
+    const Metar crowd = read(many);
+    CHECK(crowd.clouds.size() == kMaxMetarGroups);
+    CHECK(crowd.not_understood.size() > 500);
+    CHECK(read("EDDF 121650Z RA RA RA RA RA RA RA RA RA").not_understood == Texts{"RA"});
 }
 
 TEST_CASE("metar: a text cut anywhere is read or refused") {
     for (const Report& report : kReports) {
         const std::string whole = report.text;
-        for (std::size_t length = 0; length < whole.size(); ++length) fault_of(whole.substr(0, length));
+        for (std::size_t length = 0; length < whole.size(); ++length)
+            fault_of(whole.substr(0, length));
     }
 }

@@ -90,9 +90,10 @@ private:
             return true;
         }
         // Only before the time: later four letters are weather, or nothing that is known.
-        if (!metar_.station.empty() || metar_.time_given || body_ || !is_station(word)) return false;
-        const bool before_time = at_ + 1 < end_ && (has_form_of_time(words_[at_ + 1]) ||
-                                                    words_[at_ + 1] == "NIL");
+        if (!metar_.station.empty() || metar_.time_given || body_ || !is_station(word))
+            return false;
+        const bool before_time =
+            at_ + 1 < end_ && (has_form_of_time(words_[at_ + 1]) || words_[at_ + 1] == "NIL");
         MetarWeather weather;
         if (!before_time && read_metar_weather(word, weather)) return false;
         metar_.station = word;
@@ -104,8 +105,10 @@ private:
         const struct {
             const char* word;
             MetarClear clear;
-        } kWords[] = {{"CAVOK", MetarClear::kCavok}, {"SKC", MetarClear::kSkc},
-                      {"CLR", MetarClear::kClr},     {"NSC", MetarClear::kNsc},
+        } kWords[] = {{"CAVOK", MetarClear::kCavok},
+                      {"SKC", MetarClear::kSkc},
+                      {"CLR", MetarClear::kClr},
+                      {"NSC", MetarClear::kNsc},
                       {"NCD", MetarClear::kNcd}};
         for (const auto& known : kWords)
             if (word == known.word) {
@@ -126,7 +129,7 @@ private:
             const char* part = word.size() == 2   ? "weather"
                                : word.size() == 4 ? "visibility"
                                                   : "clouds";
-            no_effect(word + ": " + part + " not told");
+            no_effect(word + ": " + part + " not reported");
             return true;
         }
         return false;
@@ -155,7 +158,8 @@ private:
         if (form == MetarForm::kOther && metar_.wind.given)
             form = read_metar_sector(word, metar_.wind, fault);
         if (form == MetarForm::kOther) form = read_visibility(word, fault);
-        if (form == MetarForm::kOther) form = read_metar_cloud(word, metar_);
+        if (form == MetarForm::kOther && metar_.clouds.size() < kMaxMetarGroups)
+            form = read_metar_cloud(word, metar_);
         if (form == MetarForm::kOther && !temperature_) {
             form = read_metar_temperature(word, metar_);
             temperature_ = form == MetarForm::kRead;
@@ -187,8 +191,7 @@ private:
 
     Status read_word(const std::string& word) {
         if (word == "NIL")
-            return metar_fault("NIL, the report is missing", join(0, end_),
-                               "a report with groups");
+            return metar_fault("NIL, the report is missing", join(0, end_), "a report with groups");
         const std::size_t known = known_;
         if (read_head(word)) return Status::ok();
         body_ = true;
@@ -199,7 +202,7 @@ private:
         MetarWeather weather;
         if (read_clear(word)) {
             ++known_;
-        } else if (read_metar_weather(word, weather)) {
+        } else if (metar_.weather.size() < kMaxMetarGroups && read_metar_weather(word, weather)) {
             ++known_;
             metar_.weather.push_back(weather);
         } else if (word == "RMK") {

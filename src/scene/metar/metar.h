@@ -13,6 +13,9 @@ namespace pileus {
 
 /// Longest report in bytes; real ones have up to some 400.
 constexpr std::size_t kMaxMetarBytes = 4096;
+/// Most groups of clouds, and of weather, that are read; further ones are set aside. The code has
+/// up to four and three.
+constexpr std::size_t kMaxMetarGroups = 8;
 
 enum class MetarBound { kExact, kLess, kMore };
 
@@ -21,7 +24,7 @@ struct MetarWind {
     bool variable = false;  ///< VRB: no direction
     double from_deg = 0;    ///< where it comes from, from north towards east
     double speed_m_per_s = 0;
-    double gust_m_per_s = 0;                      ///< 0: none
+    double gust_m_per_s = 0;                        ///< 0: none
     double sector_from_deg = 0, sector_to_deg = 0;  ///< of 270V330; both 0: none
 };
 
@@ -44,37 +47,37 @@ struct MetarWeather {
     std::vector<std::string> phenomena;
 };
 
-enum class MetarCover { kUntold, kFew, kScattered, kBroken, kOvercast };
+enum class MetarCover { kUnknown, kFew, kScattered, kBroken, kOvercast };
 enum class MetarTower { kNone, kCumulonimbus, kCongestus };
 
 struct MetarCloud {
-    MetarCover cover = MetarCover::kUntold;
+    MetarCover cover = MetarCover::kUnknown;
     bool height_given = false;
     double height_m = 0;  ///< of the base above the aerodrome
     MetarTower tower = MetarTower::kNone;
 };
 
-/// Words for a sky without reported clouds; kUntold where there is no such word.
-enum class MetarClear { kUntold, kCavok, kSkc, kClr, kNsc, kNcd };
+/// Words for a sky without reported clouds; kUnknown where there is no such word.
+enum class MetarClear { kUnknown, kCavok, kSkc, kClr, kNsc, kNcd };
 
 struct Metar {
     bool special = false;    ///< SPECI
     bool corrected = false;  ///< COR
     bool automatic = false;  ///< AUTO
-    std::string station;     ///< four letters or digits; empty: not told
+    std::string station;     ///< four letters or digits; empty: not reported
     bool time_given = false;
-    int day = 0, hour = 0, minute = 0;  ///< UTC; the day of a month that is not told
+    int day = 0, hour = 0, minute = 0;  ///< UTC; the day of a month that is not reported
     MetarWind wind;
     MetarVisibility visibility;
     std::vector<MetarWeather> weather;
     std::vector<MetarCloud> clouds;
-    MetarClear clear = MetarClear::kUntold;
-    bool obscured = false;              ///< VVnnn or VV///
+    MetarClear clear = MetarClear::kUnknown;
+    bool obscured = false;  ///< VVnnn or VV///
     bool vertical_visibility_given = false;
     double vertical_visibility_m = 0;
     bool temperature_given = false, dew_point_given = false;
     double temperature_c = 0, dew_point_c = 0;
-    double pressure_hpa = 0;  ///< QNH; 0: not told
+    double pressure_hpa = 0;                  ///< QNH; 0: not reported
     std::vector<std::string> without_effect;  ///< understood, but nothing that a picture shows
     std::vector<std::string> not_understood;  ///< as they stand, printable
 };

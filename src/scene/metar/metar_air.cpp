@@ -25,7 +25,7 @@ Fall find_fall(MetarDraft& draft) {
         if (weather.intensity == MetarIntensity::kVicinity || weather.descriptor == "BL" ||
             weather.descriptor == "DR")
             continue;
-        const int intensity = weather.intensity == MetarIntensity::kLight    ? 0
+        const int intensity = weather.intensity == MetarIntensity::kLight   ? 0
                               : weather.intensity == MetarIntensity::kHeavy ? 2
                                                                             : 1;
         for (const std::string& what : weather.phenomena)
@@ -36,19 +36,19 @@ Fall find_fall(MetarDraft& draft) {
                     draft.report.temperature_given && draft.report.temperature_c < 0;
                 if (what == "UP") {
                     if (frozen) kind = &kMetarFalls[0];
-                    draft.note(std::string("UP: precipitation of a kind not told, ") + kind->name +
-                               " assumed");
+                    draft.note(std::string("UP: precipitation of a kind not reported, ") +
+                               kind->name + " assumed");
                 }
                 const double extinction = kind->per_km[intensity] / 1000;
                 if (extinction <= found.extinction_per_m) continue;
-                found = {kind, extinction,
-                         weather.descriptor == "SH" || weather.descriptor == "TS", intensity};
+                found = {kind, extinction, weather.descriptor == "SH" || weather.descriptor == "TS",
+                         intensity};
             }
     }
     return found;
 }
 
-/// What stands in the air at the aerodrome; null: nothing that is told. Patches and shallow fog
+/// What stands in the air at the aerodrome; null: nothing that is reported. Patches and shallow fog
 /// are layers besides, which leave the visibility as it is.
 const MetarDimming* find_dimming(MetarDraft& draft, std::vector<std::string>& patches) {
     const MetarDimming* found = nullptr;
@@ -149,9 +149,10 @@ void add_dimming(MetarDraft& draft, const MetarDimming& row, double extinction_p
     medium.extinction_per_m = 2 * most;
     medium.albedo = row.albedo;
     medium.phase = row.phase;
-    medium.shape = "base_rise = 0, top_fall = 0.5, threshold_low = -0.1, threshold_high = 1.1, "
-                   "base_density = " +
-                   number_text(most > 0 ? extinction_per_m / most : 1, 6);
+    medium.shape =
+        "base_rise = 0, top_fall = 0.5, threshold_low = -0.1, threshold_high = 1.1, "
+        "base_density = " +
+        number_text(most > 0 ? extinction_per_m / most : 1, 6);
     if (!(most > 0)) return;
     draft.add(medium);
     draft.note(std::string(row.name) + ": " + metres(thickness_m) + " thick, assumed");
@@ -161,8 +162,7 @@ void add_dimming(MetarDraft& draft, const MetarDimming& row, double extinction_p
 double haze_of(double turbidity) { return (turbidity - 1) * kMetarHaze_per_m; }
 
 double bounded_turbidity(double haze_per_m) {
-    return std::clamp(1 + haze_per_m / kMetarHaze_per_m, kMetarLeastTurbidity,
-                      kMetarMostTurbidity);
+    return std::clamp(1 + haze_per_m / kMetarHaze_per_m, kMetarLeastTurbidity, kMetarMostTurbidity);
 }
 
 }  // namespace
@@ -174,10 +174,9 @@ void add_metar_air(MetarDraft& draft) {
     std::vector<std::string> patches;
     const Fall fall = find_fall(draft);
     const MetarDimming* row = find_dimming(draft, patches);
-    const double top_of_sight_m =
-        report.vertical_visibility_given
-            ? std::max(report.vertical_visibility_m, kMetarLeastBase_m)
-            : kMetarUntoldSight_m;
+    const double top_of_sight_m = report.vertical_visibility_given
+                                      ? std::max(report.vertical_visibility_m, kMetarLeastBase_m)
+                                      : kMetarUnknownSight_m;
     // An obscured sky without a word for it: what falls hides the sky, or fog is meant.
     const bool hidden_by_fall = report.obscured && row == nullptr && fall.kind != nullptr;
     const bool hidden = report.obscured && !hidden_by_fall;
@@ -186,16 +185,16 @@ void add_metar_air(MetarDraft& draft) {
 
     double visibility_m = seen.given && seen.bound != MetarBound::kMore ? seen.m : 0;
     if (!(visibility_m > 0) && dense) {
-        visibility_m = report.vertical_visibility_given ? top_of_sight_m : kMetarUntoldFog_m;
-        draft.note(std::string("visibility in ") + row->name + ": not told, " +
+        visibility_m = report.vertical_visibility_given ? top_of_sight_m : kMetarUnknownFog_m;
+        draft.note(std::string("visibility in ") + row->name + ": not reported, " +
                    metres(visibility_m) + " assumed");
     } else if (!seen.given) {
-        draft.note("visibility: not told, clear air assumed");
+        draft.note("visibility: not reported, clear air assumed");
     }
 
     sky.turbidity = kMetarClearTurbidity;
     double fall_per_m = fall.extinction_per_m;
-    // What falls all around dims no more than is told.
+    // What falls all around dims no more than is reported.
     if (seen.given && fall.kind != nullptr && !fall.showers) {
         const double all_per_m = kMetarKoschmieder / seen.m;
         const double most_per_m = all_per_m - haze_of(kMetarClearTurbidity);
@@ -209,7 +208,7 @@ void add_metar_air(MetarDraft& draft) {
         sky.turbidity = bounded_turbidity(rest_per_m);
         if (fall.kind != nullptr) sky.turbidity = std::max(sky.turbidity, kMetarClearTurbidity);
         if (beyond_air && row == nullptr && fall.kind != nullptr) {
-            // No other cause is told: it falls more densely than its intensity says.
+            // No other cause is reported: it falls more densely than its intensity says.
             sky.turbidity = kMetarClearTurbidity;
             fall_per_m = std::max(fall_per_m, all_per_m - haze_of(sky.turbidity));
         } else if (beyond_air || dense) {

@@ -39,8 +39,7 @@ const MetarSheet& sheet_of(const MetarCloud& cloud, double height_m, bool rains_
         if (overcast) return kMetarAltostratus;
         return is_ceiling(cloud) ? kMetarAltocumulusBroken : kMetarAltocumulus;
     }
-    if (is_ceiling(cloud))
-        return height_m < kMetarStratus_m ? kMetarStratus : kMetarStratocumulus;
+    if (is_ceiling(cloud)) return height_m < kMetarStratus_m ? kMetarStratus : kMetarStratocumulus;
     if (height_m < kMetarStratus_m) return kMetarRags;
     return few ? kMetarHumilis : kMetarMediocris;
 }
@@ -51,16 +50,19 @@ std::string metres(double m) { return number_text(m, 5) + " m"; }
 void note_clear(MetarDraft& draft) {
     switch (draft.report.clear) {
         case MetarClear::kCavok:
-            draft.note("CAVOK: no cloud below 1500 m and no CB; clouds above are not told, none "
-                       "assumed");
+            draft.note(
+                "CAVOK: no cloud below 1500 m and no CB; clouds above are not reported, none "
+                "assumed");
             break;
         case MetarClear::kNsc:
-            draft.note("NSC: no cloud below 1500 m and no CB; clouds above are not told, none "
-                       "assumed");
+            draft.note(
+                "NSC: no cloud below 1500 m and no CB; clouds above are not reported, none "
+                "assumed");
             break;
         case MetarClear::kClr:
-            draft.note("CLR: an automatic station sees up to 3700 m; clouds above are not told, "
-                       "none assumed");
+            draft.note(
+                "CLR: an automatic station sees up to 3700 m; clouds above are not reported, "
+                "none assumed");
             break;
         case MetarClear::kNcd:
             draft.note("NCD: an automatic station found no clouds, none assumed");
@@ -81,8 +83,7 @@ void add_sheet(MetarDraft& draft, const Placed& placed, double next_m, bool rain
     // Sheets that lie in one another cannot be shown in order. Towers go through all.
     const bool cut = placed.cloud.tower == MetarTower::kNone && next_m > placed.height_m &&
                      placed.height_m + thickness_m > next_m - kMetarGap_m;
-    if (cut)
-        thickness_m = std::max(kMetarLeastThickness_m, next_m - kMetarGap_m - placed.height_m);
+    if (cut) thickness_m = std::max(kMetarLeastThickness_m, next_m - kMetarGap_m - placed.height_m);
     MetarMedium medium;
     medium.name = sheet.name;
     medium.type = sheet.type;
@@ -119,29 +120,28 @@ void add_metar_clouds(MetarDraft& draft) {
     std::vector<Placed> all;
     bool thunder = false, has_cumulonimbus = false;
     for (const MetarWeather& weather : report.weather)
-        thunder = thunder || (weather.descriptor == "TS" &&
-                              weather.intensity != MetarIntensity::kVicinity);
+        thunder = thunder ||
+                  (weather.descriptor == "TS" && weather.intensity != MetarIntensity::kVicinity);
     for (const MetarCloud& cloud : report.clouds) {
         Placed placed{cloud, std::max(cloud.height_m, kMetarLeastBase_m)};
         has_cumulonimbus = has_cumulonimbus || cloud.tower == MetarTower::kCumulonimbus;
-        if (cloud.cover == MetarCover::kUntold && !cloud.height_given &&
+        if (cloud.cover == MetarCover::kUnknown && !cloud.height_given &&
             cloud.tower == MetarTower::kNone) {
-            draft.note("clouds: not told, none assumed");
+            draft.note("clouds: not reported, none assumed");
             continue;
         }
         if (!cloud.height_given) {
-            placed.height_m = kMetarUntoldBase_m;
-            draft.note("base of " + std::string(word_of(cloud.cover)) + ": not told, " +
-                       metres(kMetarUntoldBase_m) + " assumed");
+            placed.height_m = kMetarUnknownBase_m;
+            draft.note("base of " + std::string(word_of(cloud.cover)) + ": not reported, " +
+                       metres(kMetarUnknownBase_m) + " assumed");
         }
-        if (cloud.cover == MetarCover::kUntold)
-            draft.note("amount of clouds at " + metres(placed.height_m) + ": not told, " +
+        if (cloud.cover == MetarCover::kUnknown)
+            draft.note("amount of clouds at " + metres(placed.height_m) + ": not reported, " +
                        (cloud.tower == MetarTower::kNone ? "3.5" : "1.5") + " eighths assumed");
         all.push_back(placed);
     }
-    std::stable_sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) {
-        return a.height_m < b.height_m;
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Placed& a, const Placed& b) { return a.height_m < b.height_m; });
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Placed& placed = all[i];
         const bool tower = placed.cloud.tower != MetarTower::kNone;
@@ -162,12 +162,12 @@ void add_metar_clouds(MetarDraft& draft) {
         add_sheet(draft, placed, next_m, rains_on);
     }
     if (thunder && !has_cumulonimbus) {
-        const double base_m = draft.lowest_m < 0 ? kMetarUntoldBase_m : draft.lowest_m;
+        const double base_m = draft.lowest_m < 0 ? kMetarUnknownBase_m : draft.lowest_m;
         draft.note("thunder without a CB in the report: one is assumed");
         draft.add_towers(kMetarCumulonimbus, true, 1, base_m);
     }
-    const bool silent = report.clouds.empty() && report.clear == MetarClear::kUntold;
-    if (silent && !report.obscured) draft.note("clouds: not told, none assumed");
+    const bool silent = report.clouds.empty() && report.clear == MetarClear::kUnknown;
+    if (silent && !report.obscured) draft.note("clouds: not reported, none assumed");
 }
 
 }  // namespace pileus

@@ -9,8 +9,8 @@
 namespace pileus {
 namespace {
 
-constexpr double kKnot = 1852.0 / 3600;   // m/s
-constexpr double kMile_m = 1609.344;      // statute
+constexpr double kKnot = 1852.0 / 3600;  // m/s
+constexpr double kMile_m = 1609.344;     // statute
 constexpr double kHundredFeet_m = 30.48;
 constexpr double kInch_hpa = 33.8638866667;  // of mercury
 
@@ -56,7 +56,9 @@ MetarForm read_miles(std::string_view word, int whole, MetarVisibility& out, Sta
     // 0 is less than the least other value, a sixteenth.
     const bool none = !fraction && number == 0;
     if (none) out.m = kMile_m / 16;
-    out.bound = less || none ? MetarBound::kLess : more || most ? MetarBound::kMore : MetarBound::kExact;
+    out.bound = less || none   ? MetarBound::kLess
+                : more || most ? MetarBound::kMore
+                               : MetarBound::kExact;
     return MetarForm::kRead;
 }
 
@@ -178,10 +180,10 @@ MetarForm read_metar_cloud(std::string_view word, Metar& out) {
     MetarCursor at(word);
     int hundreds = 0;
     if (at.take("VV")) {
-        const bool untold = at.take_strokes(3);
-        if ((!untold && !at.take_digits(3, 3, hundreds)) || !at.at_end()) return MetarForm::kOther;
+        const bool unknown = at.take_strokes(3);
+        if ((!unknown && !at.take_digits(3, 3, hundreds)) || !at.at_end()) return MetarForm::kOther;
         out.obscured = true;
-        out.vertical_visibility_given = !untold;
+        out.vertical_visibility_given = !unknown;
         out.vertical_visibility_m = hundreds * kHundredFeet_m;
         return MetarForm::kRead;
     }

@@ -11,12 +11,12 @@ namespace pileus {
 struct MetarMedium {
     std::string name, type;
     double base_m = 0, top_m = 0;
-    double coverage = -1;          ///< below 0: by thresholds of `shape`
-    double extinction_per_m = 0;   ///< 0: the type's
-    std::string albedo;            ///< "": 1
-    std::string phase;             ///< "": the type's
-    std::string shape;             ///< further keys of the table sky
-    bool on_ground = false;        ///< begins at the ground, over level country
+    double coverage = -1;         ///< below 0: by thresholds of `shape`
+    double extinction_per_m = 0;  ///< 0: the type's
+    std::string albedo;           ///< "": 1
+    std::string phase;            ///< "": the type's
+    std::string shape;            ///< further keys of the table sky
+    bool on_ground = false;       ///< begins at the ground, over level country
 };
 
 /// What all parts read and add to.

@@ -21,13 +21,13 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 std::string camera_text(double height_m) {
-    return "[camera]\nposition_m = [0, 0, " + number(height_m) +
-           "]\ntarget_m = [0, 1000, " + number(height_m) + "]\n\n";
+    return "[camera]\nposition_m = [0, 0, " + number(height_m) + "]\ntarget_m = [0, 1000, " +
+           number(height_m) + "]\n\n";
 }
 
 std::string method_text() {
-    return "\n[method]\nname = \"raymarch\"\n\n[raymarch]\nsteps = " +
-           std::to_string(kMetarSteps) + "\ntemporal = " + std::to_string(kMetarTemporal) + "\n";
+    return "\n[method]\nname = \"raymarch\"\n\n[raymarch]\nsteps = " + std::to_string(kMetarSteps) +
+           "\ntemporal = " + std::to_string(kMetarTemporal) + "\n";
 }
 
 }  // namespace
@@ -86,8 +86,8 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
                                               "[[medium]]\ndensity = \"procedural:cloud\"\n"
                                               "cloud = { type = \"" +
                                               towers.type +
-                                              "\", seed = " + std::to_string(next_seed()) +
-                                              " }\n" + method_text()});
+                                              "\", seed = " + std::to_string(next_seed()) + " }\n" +
+                                              method_text()});
     MetarScatter row;
     row.kind = towers.name;
     row.count = count > 0 ? count : few ? towers.few : towers.scattered;
@@ -119,17 +119,18 @@ Status metar_sky(const Metar& report, const MetarSkySettings& settings, MetarSky
     MetarSky sky;
     MetarDraft draft{report, settings, sky};
     if (!report.wind.given)
-        draft.note("wind: not told, clouds stand still");
+        draft.note("wind: not reported, clouds stand still");
     else if (report.wind.variable && report.wind.speed_m_per_s > 0)
         draft.note("wind: without a direction, clouds stand still");
     else if (report.wind.speed_m_per_s > 0)
-        draft.note("wind aloft: twice that of the ground at 1 km and turned by 25 degrees, assumed");
+        draft.note(
+            "wind aloft: twice that of the ground at 1 km and turned by 25 degrees, assumed");
     add_metar_clouds(draft);
     add_metar_air(draft);
     sky.time_given = report.time_given;
     sky.day = report.day;
     sky.utc_hours = report.hour + report.minute / 60.0;
-    if (!report.time_given) draft.note("time: not told");
+    if (!report.time_given) draft.note("time: not reported");
     out = std::move(sky);
     return Status::ok();
 }

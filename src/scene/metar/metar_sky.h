@@ -13,10 +13,10 @@
 namespace pileus {
 
 struct MetarSkySettings {
-    std::int64_t seed = 0;        ///< another one, other clouds of the same report
+    std::int64_t seed = 0;         ///< another one, other clouds of the same report
     double field_elevation_m = 0;  ///< of the aerodrome: heights of the report count from there
-    double scale_radius_km = 40;  ///< how far towers are strewn, and how far fog and rain reach
-    bool southern = false;        ///< south of the equator, where winds back with height
+    double scale_radius_km = 40;   ///< how far towers are strewn, and how far fog and rain reach
+    bool southern = false;         ///< south of the equator, where winds back with height
 };
 
 /// A whole scene of one medium with its method. Its camera is there because a scene must have one.
@@ -39,8 +39,8 @@ struct MetarSky {
     std::vector<MetarScatter> scatter;
     double turbidity = 2;  ///< of [atmosphere]
     bool time_given = false;
-    int day = 0;           ///< of a month that the report does not tell
-    double utc_hours = 0;  ///< 0 to 24
+    int day = 0;                     ///< of a month that the report does not tell
+    double utc_hours = 0;            ///< 0 to 24
     std::vector<std::string> notes;  ///< a line for each thing that was assumed or left out
 };
 

@@ -16,17 +16,17 @@ constexpr double kMetarNimbostratus_m = 3000;
 constexpr double kMetarLeastBase_m = 15;
 // Sheets that are lower have bounds, and lie level: see MetarDraft::add.
 constexpr double kMetarSpare_m = 60;
-// Where no height is told: chosen.
-constexpr double kMetarUntoldBase_m = 900;
+// Where no height is reported: chosen.
+constexpr double kMetarUnknownBase_m = 900;
 // A sheet ends so far below the next one, and is at least so thick: chosen.
 constexpr double kMetarGap_m = 30, kMetarLeastThickness_m = 100;
 
 // Middles of the eighths that a word stands for: WMO No. 306, code table 0265 and 15.9.1.1.
 constexpr double metar_coverage(MetarCover cover) {
-    return cover == MetarCover::kFew         ? 1.5 / 8
-           : cover == MetarCover::kBroken    ? 6.0 / 8
-           : cover == MetarCover::kOvercast  ? 1.0
-                                             : 3.5 / 8;
+    return cover == MetarCover::kFew        ? 1.5 / 8
+           : cover == MetarCover::kBroken   ? 6.0 / 8
+           : cover == MetarCover::kOvercast ? 1.0
+                                            : 3.5 / 8;
 }
 
 /// A kind of sheet: `type` of [medium.sky], its thickness, and for type custom all else.
@@ -65,8 +65,8 @@ constexpr MetarSheet kMetarAltocumulus = {"altocumulus", "custom",          200,
                                           0.03,          kMetarMiddleDrops, kMetarCells};
 constexpr MetarSheet kMetarAltocumulusBroken = {"altocumulus", "custom",          300,
                                                 0.03,          kMetarMiddleDrops, kMetarCells};
-constexpr MetarSheet kMetarAltostratus = {
-    "altostratus", "stratus", 1500, 0.012, kMetarMiddleDrops, ""};
+constexpr MetarSheet kMetarAltostratus = {"altostratus", "stratus",         1500,
+                                          0.012,         kMetarMiddleDrops, ""};
 constexpr MetarSheet kMetarCirrus = {"cirrus", "custom", 800, 0.0015, kMetarIce, kMetarVeil};
 constexpr MetarSheet kMetarCirrostratus = {"cirrostratus", "custom",  900,
                                            0.0015,         kMetarIce, kMetarVeil};
@@ -81,9 +81,9 @@ struct MetarTowers {
     double room_m;  ///< ring beyond near_m in which all of them have room; a narrower one takes one
 };
 constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 2, 3, 15000, 1e6,
-                                             20000};
+                                            20000};
 constexpr MetarTowers kMetarCongestus = {"congestus", "cumulus-congestus", 12, 30, 3000, 25000,
-                                          12000};
+                                         12000};
 
 // Wind: that of the ground times 1 + h/1 km up to 2 at 1 km, the top of the layer of friction, and
 // 0.1 more for each further km; turned by up to 25 degrees at 1 km, to the right in the north.
@@ -97,9 +97,9 @@ constexpr double kMetarKoschmieder = 3.912;
 constexpr double kMetarHaze_per_m = 0.0972 / 1200;
 constexpr double kMetarClearTurbidity = 2;  // docs/atmosphere.md, "clear": of 10 km and more
 constexpr double kMetarLeastTurbidity = 1.5, kMetarMostTurbidity = 10;
-constexpr double kMetarUntoldFog_m = 500;    // visibility in fog where none is told: chosen
-constexpr double kMetarPatchFog_m = 600;     // within patches: below 1000 m (Annex 3), chosen
-constexpr double kMetarUntoldSight_m = 60;   // upwards, of VV///: chosen
+constexpr double kMetarUnknownFog_m = 500;    // visibility in fog where none is reported: chosen
+constexpr double kMetarPatchFog_m = 600;      // within patches: below 1000 m (Annex 3), chosen
+constexpr double kMetarUnknownSight_m = 60;   // upwards, of VV///: chosen
 constexpr double kMetarThickest_per_m = 0.1;  // dense fog: 40 m of visibility, chosen
 
 /// What dims the view at the ground. Turbidity is that of the air besides.
@@ -143,7 +143,7 @@ struct MetarFall {
 // tenth of snow, chosen. Ice pellets and hail as rain, chosen. g: drops 0.9, the sharpest that all
 // methods take; snow 0.85; chosen. Albedo 1: absorption in the visible is below 1e-3.
 constexpr MetarFall kMetarFalls[] = {
-    {"SN", "snow", {2.6, 6.5, 13.0}, 0.85}, {"RA", "rain", {0.365, 1.006, 2.41}, 0.9},
+    {"SN", "snow", {2.6, 6.5, 13.0}, 0.85},     {"RA", "rain", {0.365, 1.006, 2.41}, 0.9},
     {"DZ", "rain", {0.119, 0.238, 0.442}, 0.9}, {"SG", "snow", {0.87, 2.2, 4.3}, 0.85},
     {"PL", "rain", {0.365, 1.006, 2.41}, 0.9},  {"GR", "rain", {0.365, 1.006, 2.41}, 0.9},
     {"GS", "rain", {0.365, 1.006, 2.41}, 0.9},  {"UP", "rain", {0.365, 1.006, 2.41}, 0.9},
@@ -151,7 +151,7 @@ constexpr MetarFall kMetarFalls[] = {
 };
 // Share of the ground under shafts: chosen. Where it rains on, shafts are only denser streaks.
 constexpr double kMetarShaftCoverage[3] = {0.25, 0.4, 0.6};
-constexpr double kMetarFallTop_m = 1500;  // where no cloud is told: chosen
+constexpr double kMetarFallTop_m = 1500;  // where no cloud is reported: chosen
 
 // Steps of a ray, and one pixel of so many by so many a frame: docs/realtime.md.
 constexpr int kMetarSteps = 96, kMetarTemporal = 4;

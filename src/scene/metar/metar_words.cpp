@@ -13,8 +13,8 @@ constexpr const char* kPhenomena[] = {"DZ", "RA", "SN", "SG", "IC", "PL", "GR", 
                                       "UP", "BR", "FG", "FU", "VA", "DU", "SA", "HZ",
                                       "PY", "PO", "SQ", "FC", "SS", "DS"};
 // Colours of military aerodromes, corrections (COR has a member), closed by snow.
-constexpr const char* kWords[] = {"BLU",    "BLU+",  "WHT",  "GRN", "YLO", "YLO1",
-                                  "YLO2",   "AMB",   "RED",  "CCA", "CCB", "CCC",
+constexpr const char* kWords[] = {"BLU",    "BLU+",    "WHT",      "GRN", "YLO", "YLO1",
+                                  "YLO2",   "AMB",     "RED",      "CCA", "CCB", "CCC",
                                   "SNOCLO", "RSNOCLO", "R/SNOCLO", "RTD", "NSW", "NOSIG"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -43,7 +43,8 @@ bool is_runway(std::string_view word) {
     MetarCursor at(word);
     int number = 0;
     if (!at.take("R") || !at.take_digits(2, 2, number)) return false;
-    for (int i = 0; i < 2 && (at.take("L") || at.take("C") || at.take("R")); ++i) {}
+    for (int i = 0; i < 2 && (at.take("L") || at.take("C") || at.take("R")); ++i) {
+    }
     if (!at.take("/")) return false;
     if (at.rest() == "////" || at.rest() == "//////") return true;
     MetarCursor range = at;
@@ -104,9 +105,9 @@ bool read_metar_weather(std::string_view word, MetarWeather& out) {
     while (take_one_of(at, std::begin(kPhenomena), std::end(kPhenomena), phenomenon))
         weather.phenomena.push_back(phenomenon);
     // Up to three phenomena (WMO No. 306, 15.8). Alone stand thunder, and showers nearby.
-    const bool alone = weather.descriptor == "TS" ||
-                       (weather.descriptor == "SH" &&
-                        weather.intensity == MetarIntensity::kVicinity);
+    const bool alone =
+        weather.descriptor == "TS" ||
+        (weather.descriptor == "SH" && weather.intensity == MetarIntensity::kVicinity);
     if (!at.at_end() || weather.phenomena.size() > 3 || (weather.phenomena.empty() && !alone))
         return false;
     out = weather;
