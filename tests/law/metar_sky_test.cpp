@@ -186,9 +186,16 @@ TEST_CASE("metar sky: towers become kinds and places") {
     CHECK(medium_of(sky.kinds[1]).cloud.type == "cumulus-congestus");
     CHECK(sky.scatter[0].base_m == near(914.4));
     CHECK(sky.scatter[0].far_m == 40000);
-    CHECK(sky.scatter[1].kind == "congestus");
+    // The widest first: places are taken in this order.
+    CHECK(sky.scatter[1].kind == "cumulonimbus");
+    CHECK(sky.scatter[2].kind == "congestus");
+    CHECK(sky.scatter[1].seed != sky.scatter[0].seed);
     CHECK(sky.scatter[1].count > sky.scatter[0].count);
-    CHECK(sky.scatter[2].seed != sky.scatter[0].seed);
+    CHECK(sky.scatter[2].count == 4);
+    CHECK(sky_of("EDDF 121845Z 9999 SCT040TCU").scatter[0].count == 24);
+    const MetarSky many = sky_of("EDDF 121845Z SCT030CB SCT040CB SCT050CB");
+    CHECK(many.scatter[0].count + many.scatter[1].count == 3);
+    CHECK(many.scatter.size() == 2);
     CHECK(sky_of("EDDF 121845Z 9999 TS FEW030").kinds.size() == 1);
     CHECK(sky_of("EDDF 121845Z 9999 VCTS FEW030").kinds.empty());
     MetarSkySettings small;

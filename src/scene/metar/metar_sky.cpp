@@ -3,6 +3,8 @@
 // metar_air.cpp. docs/metar.md
 #include "src/scene/metar/metar_sky.h"
 
+#include <algorithm>
+
 #include "src/base/angles.h"
 #include "src/base/number_text.h"
 #include "src/scene/metar/metar_parts.h"
@@ -91,6 +93,14 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
     MetarScatter row;
     row.kind = towers.name;
     row.count = count > 0 ? count : few ? towers.few : towers.scattered;
+    int standing = 0;
+    for (const MetarScatter& other : sky.scatter)
+        if (other.kind == row.kind) standing += other.count;
+    if (row.count > towers.most - standing) row.count = towers.most - standing;
+    if (row.count < 1) {
+        note(std::string(towers.name) + ": " + std::to_string(standing) + " stand, more left out");
+        return;
+    }
     row.base_m = settings.field_elevation_m + base_m;
     row.near_m = towers.near_m;
     row.far_m = settings.scale_radius_km * 1000;
@@ -101,11 +111,34 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
         row.count = 1;
     }
     row.seed = next_seed();
-    note(std::string(towers.name) + ": " + std::to_string(row.count) +
-         (row.count == 1 ? " stands" : " stand") + " " + number(row.near_m / 1000) + " to " +
-         number(row.far_m / 1000) + " km away; number, places and height are assumed");
     sky.scatter.push_back(row);
 }
+
+namespace {
+
+void order_towers(MetarDraft& draft) {
+    MetarSky& sky = draft.sky;
+    // Places are taken in this order: the widest first, while there is room.
+    const auto wide = [](const MetarScatter& row) { return row.kind == kMetarCumulonimbus.name; };
+    std::stable_partition(sky.scatter.begin(), sky.scatter.end(), wide);
+    if (std::any_of(sky.scatter.begin(), sky.scatter.end(), wide)) {
+        int left = kMetarCongestusBeside;
+        for (MetarScatter& row : sky.scatter)
+            if (!wide(row)) {
+                row.count = std::min(row.count, left);
+                left -= row.count;
+            }
+        sky.scatter.erase(std::remove_if(sky.scatter.begin(), sky.scatter.end(),
+                                         [](const MetarScatter& row) { return row.count == 0; }),
+                          sky.scatter.end());
+    }
+    for (const MetarScatter& row : sky.scatter)
+        draft.note(row.kind + ": " + std::to_string(row.count) +
+                   (row.count == 1 ? " stands " : " stand ") + number(row.near_m / 1000) + " to " +
+                   number(row.far_m / 1000) + " km away; number, places and height are assumed");
+}
+
+}  // namespace
 
 Status metar_sky(const Metar& report, const MetarSkySettings& settings, MetarSky& out) {
     if (!(settings.field_elevation_m >= -500 && settings.field_elevation_m <= 9000))
@@ -127,6 +160,7 @@ Status metar_sky(const Metar& report, const MetarSkySettings& settings, MetarSky
             "wind aloft: twice that of the ground at 1 km and turned by 25 degrees, assumed");
     add_metar_clouds(draft);
     add_metar_air(draft);
+    order_towers(draft);
     sky.time_given = report.time_given;
     sky.day = report.day;
     sky.utc_hours = report.hour + report.minute / 60.0;

@@ -75,15 +75,18 @@ constexpr MetarSheet kMetarCirrostratus = {"cirrostratus", "custom",  900,
 /// some; a tower of the least distance stands clear of the camera.
 struct MetarTowers {
     const char* name;
-    const char* type;  ///< of [medium.cloud]
-    int few, scattered;
+    const char* type;          ///< of [medium.cloud]
+    int few, scattered, most;  ///< of a group, and of all groups
     double near_m, most_far_m;
     double room_m;  ///< ring beyond near_m in which all of them have room; a narrower one takes one
 };
-constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 2, 3, 15000, 1e6,
+constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 1, 2, 3, 15000, 1e6,
                                             20000};
-constexpr MetarTowers kMetarCongestus = {"congestus", "cumulus-congestus", 12, 30, 3000, 25000,
+constexpr MetarTowers kMetarCongestus = {"congestus", "cumulus-congestus", 12, 24, 24, 3000, 25000,
                                          12000};
+
+// So many congestus beside cumulonimbi, whose boxes leave little room: tried with 60 seeds.
+constexpr int kMetarCongestusBeside = 4;
 
 // Wind: that of the ground times 1 + h/1 km up to 2 at 1 km, the top of the layer of friction, and
 // 0.1 more for each further km; turned by up to 25 degrees at 1 km, to the right in the north.
