@@ -44,10 +44,10 @@ extern "C" {
 #define PILEUS_VERSION_MINOR 0
 #define PILEUS_VERSION_PATCH 0
 /** What pileus_version() of the same version returns. */
-#define PILEUS_VERSION_STRING "1.0.0-rc1"
+#define PILEUS_VERSION_STRING "1.0.0-rc2"
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
-#define PILEUS_API_VERSION 5
+#define PILEUS_API_VERSION 6
 
 /* ---- Results and structs ----------------------------------------------------------------- */
 
@@ -596,12 +596,14 @@ typedef struct pileus_cloud {
     double offset_m[3]; /**< each within 1e7 */
     double yaw_deg;     /**< -360 to 360; clouds of one kind and turn share their light */
     double scale;       /**< 0.01 to 100, 0: 1; the optical thickness stays as it is */
+    double
+        presence; /**< above 0 to 1, 0: 1; factor on its alpha and light, to let it come and go */
 } pileus_cloud;
 
 /** All clouds, up to 1000, in place of those that there were; each element has the size that the
  * first tells.
- * One that has the number and the place that it had keeps its pictures. What a new kind or turn
- * needs is lit with the next picture. */
+ * One that has the number, kind, turn and size that it had keeps its pictures, wherever it goes.
+ * What a new kind or turn needs is lit with the next picture. */
 PILEUS_API pileus_code pileus_clouds_place(pileus_clouds* clouds, const pileus_cloud* places,
                                            uint32_t count, pileus_error* error);
 
@@ -637,6 +639,102 @@ typedef struct pileus_cloud_stats {
 } pileus_cloud_stats;
 PILEUS_API pileus_code pileus_clouds_stats(const pileus_clouds* clouds, pileus_cloud_stats* stats,
                                            pileus_error* error);
+
+/* ---- The whole sky ----------------------------------------------------------------------- */
+
+/* All that is above a host's ground in one picture: air, haze, sun, sheets of clouds and clouds by
+ * number, sorted by depth in each pixel, over what the host has drawn. docs/whole-sky.md
+ * Threads: one uses a sky, its session and its clouds at a time. Lifetime: until it is freed. */
+typedef struct pileus_sky pileus_sky;
+
+/** From a scene without [[medium]]: its [atmosphere] or sky, its [clouds], its [weather]. `host`
+ * may be null; the scene may be freed afterwards. Errors: those of a scene's files. */
+PILEUS_API pileus_code pileus_sky_create(const pileus_scene* scene, const pileus_host* host,
+                                         pileus_sky** sky, pileus_error* error);
+PILEUS_API void pileus_sky_free(pileus_sky* sky);
+
+/** The sky's session, in which camera, sun, ground and frame number are set; and its clouds, for
+ * kinds, places and detail. Both are the sky's and are not freed; of a null sky null. */
+PILEUS_API pileus_session* pileus_sky_session(pileus_sky* sky);
+PILEUS_API pileus_clouds* pileus_sky_clouds(pileus_sky* sky);
+
+/** One more sheet of clouds, up to 8: media that stay where their scene has them, without end or in
+ * boxes, drawn in each picture by the scene's own method. Of its scene sun, sky, air, ground and
+ * camera do not count. */
+PILEUS_API pileus_code pileus_sky_add_layer(pileus_sky* sky, const pileus_world* world,
+                                            const pileus_scene* scene, pileus_error* error);
+
+/** Clouds, haze, fog and rain of a report, METAR or SPECI, in place of all clouds and layers there
+ * are. `seed`: other clouds of the same report; `elevation_m`: of the station. Needs [atmosphere].
+ * PILEUS_ERROR_INPUT: a report that cannot be read, and all is as it was. docs/metar.md */
+PILEUS_API pileus_code pileus_sky_set_weather(pileus_sky* sky, const char* metar, uint32_t seed,
+                                              double elevation_m, pileus_error* error);
+
+/** Places sun, moon and stars so many hours after the scene's date and time, which it must have;
+ * within 1e6. */
+PILEUS_API pileus_code pileus_sky_set_time(pileus_sky* sky, double hours, pileus_error* error);
+
+/** Where all clouds and layers are beside their places: by wind, or because a host's own origin has
+ * moved. Within 1e7 m. Nothing is drawn or lit anew for it. */
+PILEUS_API pileus_code pileus_sky_move(pileus_sky* sky, const double offset_m[3],
+                                       pileus_error* error);
+
+/** Draws all of it. `depth`: what the host has drawn, of the camera as it is set; null: as it was
+ * set last. PILEUS_BLEND_OVER: where the host has something, that is seen through air and clouds;
+ * where it has nothing, and before the sky's own ground, the sky takes its place.
+ * PILEUS_BLEND_MEDIA: the same to be laid over it later, light and alpha (the mean of R, G, B).
+ * PILEUS_BLEND_REPLACE: as pileus_clouds_render. */
+PILEUS_API pileus_code pileus_sky_render(pileus_sky* sky, const pileus_depth_image* depth,
+                                         const pileus_frame* frame, pileus_error* error);
+
+/** What a sky does at a place; light without the host's own things. */
+typedef struct pileus_sky_light {
+    uint32_t struct_size;
+    float sun_share;      /**< of sunlight that clouds let through; 0: a sun below the horizon */
+    double position_m[3]; /**< yours: where */
+    float sun[3];         /**< irradiance on a plane that faces the sun, through air and clouds */
+    float level[3];       /**< irradiance of the sky on level ground */
+    double extinction_per_m; /**< of clouds there; visibility 3.912 / extinction, m */
+    /** Irradiance over pi, by channel, of sky and ground on a plane of normal (x, y, z): the sum of
+     * these times 1, x, y, z, xy, yz, zx, xx - yy, 3 zz - 1. */
+    float around[3][9];
+} pileus_sky_light;
+
+/** Fills `count` of them, up to 65536, by the sun as it is set and shadows as they follow it. */
+PILEUS_API pileus_code pileus_sky_light_at(pileus_sky* sky, pileus_sky_light* places,
+                                           uint32_t count, pileus_error* error);
+
+typedef enum pileus_shadow_format {
+    PILEUS_SHADOW_R8 = 0,    /**< a byte, 255: all of the sun */
+    PILEUS_SHADOW_RGBA8 = 1, /**< the byte three times, and 255 */
+    PILEUS_SHADOW_R16F = 2,  /**< an IEEE half, 0 to 1 */
+    PILEUS_SHADOW_R32F = 3   /**< a float, 0 to 1 */
+} pileus_shadow_format;
+
+/** A map of the sunlight that clouds let through to a host's terrain. Texels run from west to east,
+ * rows from the north to the south. */
+typedef struct pileus_shadow_map {
+    uint32_t struct_size;
+    uint32_t width, height;     /**< texels, up to 16384 */
+    uint32_t format;            /**< a pileus_shadow_format */
+    double low_m[2], size_m[2]; /**< x, y of the south-west corner; extents */
+    double altitude_m;          /**< of all texels, where `heights` is null */
+    const float* heights;       /**< altitude of each, tightly packed, rows as in memory; null */
+    void* texels;
+    int64_t stride;           /**< bytes from row to row; 0: tightly packed */
+    int32_t bottom_up;        /**< not 0: the first row in memory is the southern one */
+    uint32_t first_row, rows; /**< rows of memory to write; rows 0: all from first_row on */
+} pileus_shadow_map;
+
+/** Writes rows of it, by shadows as they follow the sun. A few rows a frame refresh it in slices.
+ * All 0 where the sun is below the horizon. */
+PILEUS_API pileus_code pileus_sky_shadow(pileus_sky* sky, const pileus_shadow_map* map,
+                                         pileus_error* error);
+
+/** What the clear air and haze do between the camera and something `metres` away: `left` of its
+ * R, G, B, and `light` that is added. Infinity: left 0, and the light of the sky there. */
+PILEUS_API pileus_code pileus_sky_air(pileus_sky* sky, const double direction[3], double metres,
+                                      float left[3], float light[3], pileus_error* error);
 
 /* ---- Flights ----------------------------------------------------------------------------- */
 
@@ -789,9 +887,11 @@ PILEUS_STRUCT(0, work)     /* as the scene has it */
 PILEUS_STRUCT(7, governor) /* target_s 1/30 */
 PILEUS_STRUCT(0, units)
 PILEUS_STRUCT(0, costs)
-PILEUS_STRUCT(8, cloud)        /* scale 1 */
+PILEUS_STRUCT(8, cloud)        /* scale 1, presence 1 */
 PILEUS_STRUCT(9, cloud_detail) /* what is in brackets there */
 PILEUS_STRUCT(0, cloud_stats)
+PILEUS_STRUCT(0, sky_light)
+PILEUS_STRUCT(0, shadow_map) /* R8, all rows */
 PILEUS_STRUCT(0, packed)
 PILEUS_STRUCT(0, flight) /* the caller's thread alone */
 PILEUS_STRUCT(0, flight_use)
@@ -831,7 +931,6 @@ PILEUS_API void pileus_orbit(const double position_m[3], const double target_m[3
 #define pileus_light_type pileus_lamp_type
 #define pileus_light pileus_lamp
 #define pileus_light_info pileus_progress
-#define pileus_sky pileus_environment
 #if defined(__GNUC__)
 #define PILEUS_OLD(name) __attribute__((deprecated("use " name)))
 #else

@@ -10,7 +10,8 @@
 // - Vectors are taken from any type with members x, y, z, and turn into it: GLM's, your own.
 //   Matrices are anything whose m[column][row] is a number.
 // - Owners move and are not copied; an empty one answers every call with kBadInput. One thread uses
-//   a session at a time; scenes and worlds are read only and may be shared.
+//   a session, or a sky with its session and clouds, at a time; scenes and worlds are read only and
+//   may be shared.
 // - The namespace is pileus::embed, as the library keeps its own Scene, World and Session in pileus
 //   and its kernels in pileus::host: one program, such as a test, may include both.
 //
@@ -206,13 +207,32 @@ struct FreeWorld {
 struct FreeSession {
     SharedLent host;
     std::vector<SharedLent> lenders;  ///< of its arrays, which a hand-over exchanges with them
+    std::shared_ptr<const void> owner = nullptr;  ///< which frees it, where it is another's
 
     void lent_by(const SharedLent& lender) {
         for (const SharedLent& own : lenders)
             if (own == lender) return;
         lenders.push_back(lender);
     }
-    void operator()(pileus_session* session) const { pileus_session_free(session); }
+    void operator()(pileus_session* session) const {
+        if (owner == nullptr) pileus_session_free(session);
+    }
+};
+struct FreeClouds {
+    bool lent = false;  ///< a sky's, which frees them
+    void operator()(pileus_clouds* clouds) const {
+        if (!lent) pileus_clouds_free(clouds);
+    }
+};
+/// A whole sky, with the hosts of all that it was made of, which outlive it.
+struct SkyOwner {
+    std::vector<SharedLent> lenders;
+    pileus_sky* sky = nullptr;
+
+    SkyOwner() = default;
+    SkyOwner(const SkyOwner&) = delete;
+    SkyOwner& operator=(const SkyOwner&) = delete;
+    ~SkyOwner() { pileus_sky_free(sky); }
 };
 
 }  // namespace detail
@@ -266,6 +286,7 @@ struct Vector2 {
     }
     friend constexpr bool operator!=(const Vector2& a, const Vector2& b) { return !(a == b); }
 };
+using Vec2 = Vector2<double>;
 using Vec3 = Vector3<double>;
 using Rgb = Vector3<float>;
 using Size3 = Vector3<std::uint32_t>;
@@ -581,6 +602,8 @@ public:
 
 private:
     friend class Session;
+    friend class Clouds;
+    friend class Sky;
     std::unique_ptr<pileus_world, detail::FreeWorld> handle_;
 };
 
@@ -608,6 +631,15 @@ inline pileus_frame frame_of(const Frame& frame, std::vector<pileus_layer>& laye
     c.depth_kind = static_cast<std::uint32_t>(frame.depth_kind);
     c.depth_format = frame.depth_halves ? PILEUS_DEPTH_R16F : PILEUS_DEPTH_R32F;
     c.hash = frame.hash;
+    return c;
+}
+
+inline pileus_depth_image depth_of(const DepthImage& depth) {
+    auto c = cleared<pileus_depth_image>();
+    c.kind = static_cast<std::uint32_t>(depth.kind);
+    c.values = depth.values;
+    c.stride = depth.stride;
+    c.bottom_up = depth.bottom_up ? 1 : 0;
     return c;
 }
 
@@ -732,11 +764,7 @@ public:
 
     /// Copies the depths for the camera as it is set now; they stay until they are set again.
     Status set_depth(const DepthImage& depth) {
-        auto c = detail::cleared<pileus_depth_image>();
-        c.kind = static_cast<std::uint32_t>(depth.kind);
-        c.values = depth.values;
-        c.stride = depth.stride;
-        c.bottom_up = depth.bottom_up ? 1 : 0;
+        const pileus_depth_image c = detail::depth_of(depth);
         return call(pileus_session_set_depth, &c);
     }
 
@@ -827,6 +855,7 @@ public:
     pileus_session* get() const { return handle_.get(); }  ///< for pileus.h; stays owned
 
 private:
+    friend class Sky;
     template <class Function, class Given>
     Status call(Function function, Given* given) const {
         return detail::status_of(
@@ -842,9 +871,10 @@ private:
 /// from above), made larger, then shifted.
 struct Cloud {
     std::uint32_t kind = 0;
-    Vec3 offset_m{0};    ///< each within 1e7
-    double yaw_deg = 0;  ///< -360 to 360; clouds of one kind and turn share their light
-    double scale = 1;    ///< 0.01 to 100; the optical thickness stays as it is
+    Vec3 offset_m{0};     ///< each within 1e7
+    double yaw_deg = 0;   ///< -360 to 360; clouds of one kind and turn share their light
+    double scale = 1;     ///< 0.01 to 100; the optical thickness stays as it is
+    double presence = 1;  ///< above 0 to 1, 0: 1; factor on its alpha and light
 };
 
 /// How exact far clouds are. 0: what is in brackets.
@@ -879,6 +909,7 @@ public:
     /// What was owned goes before its sky does.
     Clouds& operator=(Clouds&& from) noexcept {
         handle_ = std::move(from.handle_);
+        lenders_ = std::move(from.lenders_);
         sky_ = std::move(from.sky_);
         return *this;
     }
@@ -891,6 +922,7 @@ public:
         if (!status) return status;
         Clouds clouds;
         clouds.handle_.reset(handle);
+        clouds.lenders_ = std::make_shared<std::vector<detail::SharedLent>>();
         clouds.sky_ = std::move(sky);
         return clouds;
     }
@@ -903,6 +935,7 @@ public:
             return pileus_clouds_add_kind(get(), world.get(), scene.get(), &kind, error);
         });
         if (!status) return status;
+        lenders_->push_back(world.handle_.get_deleter().host);
         return kind;
     }
 
@@ -917,6 +950,7 @@ public:
             detail::store(cloud.offset_m, c.offset_m);
             c.yaw_deg = cloud.yaw_deg;
             c.scale = cloud.scale;
+            c.presence = cloud.presence;
         }
         return detail::status_of([&](pileus_error* error) {
             return pileus_clouds_place(get(), given.data(), detail::count_of(given.size()), error);
@@ -956,11 +990,202 @@ public:
     pileus_clouds* get() const { return handle_.get(); }  ///< for pileus.h; stays owned
 
 private:
-    struct Free {
-        void operator()(pileus_clouds* clouds) const { pileus_clouds_free(clouds); }
-    };
-    Session sky_;  ///< outlives the handle
-    std::unique_ptr<pileus_clouds, Free> handle_;
+    friend class Sky;
+    Session sky_;  ///< outlives the handle, as do the hosts of kinds
+    std::shared_ptr<std::vector<detail::SharedLent>> lenders_;
+    std::unique_ptr<pileus_clouds, detail::FreeClouds> handle_;
+};
+
+// ---- The whole sky -----------------------------------------------------------------------
+
+/// What a sky does at a place; light without the host's own things.
+struct SkyLight {
+    Vec3 position_m{0};
+    float sun_share = 0;  ///< of sunlight that clouds let through; 0: a sun below the horizon
+    Rgb sun{0};           ///< irradiance on a plane that faces the sun, through air and clouds
+    Rgb level{0};         ///< irradiance of the sky on level ground
+    double extinction_per_m = 0;  ///< of clouds there; visibility 3.912 / extinction, m
+    /// Irradiance over pi, by channel, of sky and ground on a plane of normal (x, y, z): the sum of
+    /// these times 1, x, y, z, xy, yz, zx, xx - yy, 3 zz - 1.
+    float around[3][9] = {};
+};
+
+enum class ShadowFormat : std::uint32_t {
+    kR8 = PILEUS_SHADOW_R8,        ///< a byte, 255: all of the sun
+    kRgba8 = PILEUS_SHADOW_RGBA8,  ///< the byte three times, and 255
+    kR16F = PILEUS_SHADOW_R16F,    ///< an IEEE half, 0 to 1
+    kR32F = PILEUS_SHADOW_R32F     ///< a float, 0 to 1
+};
+
+/// A map of the sunlight that clouds let through, in memory of the caller. Texels run from west to
+/// east, rows from the north to the south.
+struct ShadowMap {
+    Size2 size{0};  ///< texels, 1 to 16384 each
+    ShadowFormat format = ShadowFormat::kR8;
+    Vec2 low_m{0}, size_m{0};        ///< south-west corner; extents
+    double altitude_m = 0;           ///< of all texels, where `heights` is null
+    const float* heights = nullptr;  ///< altitude of each, tightly packed, rows as in memory
+    void* texels = nullptr;
+    std::int64_t stride = 0;                ///< bytes from row to row; 0: tightly packed
+    bool bottom_up = false;                 ///< the first row in memory is the southern one
+    std::uint32_t first_row = 0, rows = 0;  ///< of memory to write; rows 0: all from first_row on
+};
+
+/// What air and haze do on a way.
+struct AirWay {
+    Rgb left{0};   ///< share of R, G, B that is left of what lies behind
+    Rgb light{0};  ///< that is added
+};
+
+/// All that is above a host's ground in one picture, over what the host has drawn.
+/// docs/whole-sky.md
+class Sky {
+public:
+    Sky() = default;
+    Sky(Sky&&) = default;
+    Sky& operator=(Sky&&) = default;
+
+    /// From a scene without media: its [atmosphere] or sky, its [clouds], its [weather]. Errors:
+    /// kBadInput, kLimit, kIo, those of the scene's files as well.
+    static Result<Sky> create(const Scene& scene, const Host& host = {}) {
+        auto owner = std::make_shared<detail::SkyOwner>();
+        owner->lenders.push_back(std::make_shared<const detail::Lent>(host));
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_sky_create(scene.get(), &owner->lenders[0]->given, &owner->sky, error);
+        });
+        if (!status) return status;
+        Sky sky;
+        sky.owner_ = std::move(owner);
+        return sky;
+    }
+
+    /// Where camera, sun, environment, ground and frame number are set. It stays the sky's, and
+    /// keeps it, wherever the owner moves. Drawn by itself it is without clouds.
+    Session session() const {
+        Session session;
+        session.handle_ = {pileus_sky_session(get()), {{}, {}, owner_}};
+        return session;
+    }
+
+    /// For kinds, places and detail; they stay the sky's likewise.
+    Clouds clouds() const {
+        Clouds clouds;
+        if (owner_ == nullptr) return clouds;
+        clouds.sky_ = session();
+        clouds.lenders_ = {owner_, &owner_->lenders};
+        clouds.handle_ = {pileus_sky_clouds(get()), {true}};
+        return clouds;
+    }
+
+    /// One more sheet of clouds, up to 8, that stays where its scene has it. World and scene may go
+    /// afterwards. Errors: kBadInput, kLimit.
+    Status add_layer(const World& world, const Scene& scene) {
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_sky_add_layer(get(), world.get(), scene.get(), error);
+        });
+        if (status) owner_->lenders.push_back(world.handle_.get_deleter().host);
+        return status;
+    }
+
+    /// Clouds, haze, fog and rain of a report in place of all clouds and layers there are; `seed`:
+    /// other clouds of the same report. kBadInput: one that cannot be read, and all is as it was.
+    Status set_weather(const std::string& metar, std::uint32_t seed = 0, double elevation_m = 0) {
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_sky_set_weather(get(), metar.c_str(), seed, elevation_m, error);
+        });
+    }
+
+    /// Places the sun so many hours after the scene's date and time, which it must have.
+    Status set_time(double hours) {
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_sky_set_time(get(), hours, error); });
+    }
+
+    /// Where all clouds and layers are beside their places, within 1e7 m. Nothing is made again.
+    Status move(const Vec3& offset_m) {
+        double to[3];
+        detail::store(offset_m, to);
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_sky_move(get(), to, error); });
+    }
+
+    /// Draws all of it: Blend::kOver over what the host has drawn, kMedia to be laid over it later.
+    /// Depths are those that were set last.
+    Status render(const Frame& frame) { return draw(frame, nullptr); }
+    /// The same with what the host has drawn, of the camera as it is set.
+    Status render(const Frame& frame, const DepthImage& depth) {
+        const pileus_depth_image c = detail::depth_of(depth);
+        return draw(frame, &c);
+    }
+
+    /// By the light and shadows of the last picture, in the order of `places_m`.
+    Result<std::vector<SkyLight>> light_at(const std::vector<Vec3>& places_m) {
+        std::vector<pileus_sky_light> found;
+        for (const Vec3& place : places_m) {
+            found.push_back(detail::cleared<pileus_sky_light>());
+            detail::store(place, found.back().position_m);
+        }
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_sky_light_at(get(), found.data(), detail::count_of(found.size()), error);
+        });
+        if (!status) return status;
+        std::vector<SkyLight> lights;
+        for (const pileus_sky_light& c : found) {
+            SkyLight light;
+            light.position_m = {c.position_m[0], c.position_m[1], c.position_m[2]};
+            light.sun_share = c.sun_share;
+            light.sun = {c.sun[0], c.sun[1], c.sun[2]};
+            light.level = {c.level[0], c.level[1], c.level[2]};
+            light.extinction_per_m = c.extinction_per_m;
+            for (int channel = 0; channel < 3; ++channel)
+                for (int k = 0; k < 9; ++k) light.around[channel][k] = c.around[channel][k];
+            lights.push_back(light);
+        }
+        return lights;
+    }
+
+    /// Writes rows of the map, by the light and shadows of the last picture; a few rows a frame
+    /// refresh it in slices.
+    Status shadow(const ShadowMap& map) {
+        auto c = detail::cleared<pileus_shadow_map>();
+        c.width = map.size.x, c.height = map.size.y;
+        c.format = static_cast<std::uint32_t>(map.format);
+        c.low_m[0] = map.low_m.x, c.low_m[1] = map.low_m.y;
+        c.size_m[0] = map.size_m.x, c.size_m[1] = map.size_m.y;
+        c.altitude_m = map.altitude_m;
+        c.heights = map.heights;
+        c.texels = map.texels;
+        c.stride = map.stride;
+        c.bottom_up = map.bottom_up ? 1 : 0;
+        c.first_row = map.first_row, c.rows = map.rows;
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_sky_shadow(get(), &c, error); });
+    }
+
+    /// Between the camera and something `metres` away; infinity: the sky there.
+    Result<AirWay> air(const Vec3& direction, double metres) {
+        double to[3];
+        float left[3], light[3];
+        detail::store(direction, to);
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_sky_air(get(), to, metres, left, light, error);
+        });
+        if (!status) return status;
+        return AirWay{{left[0], left[1], left[2]}, {light[0], light[1], light[2]}};
+    }
+
+    explicit operator bool() const { return bool(owner_); }
+    pileus_sky* get() const { return owner_ ? owner_->sky : nullptr; }  ///< for pileus.h
+
+private:
+    Status draw(const Frame& frame, const pileus_depth_image* depth) {
+        std::vector<pileus_layer> layers;
+        const pileus_frame c = detail::frame_of(frame, layers);
+        return detail::status_of(
+            [&](pileus_error* error) { return pileus_sky_render(get(), depth, &c, error); });
+    }
+
+    std::shared_ptr<detail::SkyOwner> owner_;  ///< with it those of its session and clouds
 };
 
 /// `position_m` turned about the vertical axis through `target_m`, counter-clockwise seen from
@@ -977,7 +1202,6 @@ inline Vec3 orbit(const Vec3& position_m, const Vec3& target_m, double degrees) 
 
 #ifndef PILEUS_NO_OLD_NAMES
 using SceneLight [[deprecated("use Lamp")]] = Lamp;
-using Sky [[deprecated("use Environment")]] = Environment;
 using Light [[deprecated("use Progress")]] = Progress;
 #endif
 

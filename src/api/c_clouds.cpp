@@ -6,7 +6,7 @@
 
 struct pileus_clouds {
     pileus_session* sky = nullptr;  ///< whose user this is: its host may free it first
-    pileus::Clouds clouds;
+    std::unique_ptr<pileus::Clouds> clouds = std::make_unique<pileus::Clouds>();
 };
 
 namespace pileus::api {
@@ -31,6 +31,7 @@ Status place_all(const pileus_cloud* places, std::uint32_t count, Clouds& clouds
         for (int a = 0; a < 3; ++a) place.offset_m[a] = given.offset_m[a];
         place.yaw_deg = given.yaw_deg;
         place.scale = given.scale == 0 ? 1 : given.scale;
+        place.presence = given.presence == 0 ? 1 : given.presence;
     }
     return clouds.place(own);
 }
@@ -55,6 +56,20 @@ Status set_detail(const pileus_cloud_detail& given, Clouds& clouds) {
 }
 
 }  // namespace
+
+Status make_clouds(pileus_session& sky, pileus_clouds*& clouds) {
+    if (sky.host->block != nullptr)
+        return Status::bad_input("sky: a session of a flight, allowed: another");
+    auto made = std::make_unique<pileus_clouds>();
+    made->sky = &sky;
+    PILEUS_TRY(made->clouds->open(*sky.session));
+    ++sky.users;
+    clouds = made.release();
+    return Status::ok();
+}
+
+std::unique_ptr<Clouds>& clouds_of(pileus_clouds& clouds) { return clouds.clouds; }
+
 }  // namespace pileus::api
 
 using namespace pileus;
@@ -66,13 +81,9 @@ pileus_code pileus_clouds_create(pileus_session* sky, pileus_clouds** clouds, pi
     if (sky == nullptr) return no_session(error);
     return call(*sky, error, [&]() -> Status {
         if (clouds == nullptr) return Status::bad_input("clouds: null, allowed: where to put them");
-        if (sky->host->block != nullptr)
-            return Status::bad_input("sky: a session of a flight, allowed: another");
-        auto made = std::make_unique<pileus_clouds>();
-        made->sky = sky;
-        PILEUS_TRY(made->clouds.open(*sky->session));
-        ++sky->users;
-        *clouds = made.release();
+        pileus_clouds* made = nullptr;
+        PILEUS_TRY(make_clouds(*sky, made));
+        *clouds = made;
         return Status::ok();
     });
 }
@@ -94,7 +105,7 @@ pileus_code pileus_clouds_add_kind(pileus_clouds* clouds, const pileus_world* wo
         if (world == nullptr) return no_handle("world");
         if (scene == nullptr) return no_handle("scene");
         std::size_t number = 0;
-        PILEUS_TRY(clouds->clouds.add_kind(scene->scene, world->world, number));
+        PILEUS_TRY(clouds->clouds->add_kind(scene->scene, world->world, number));
         if (kind != nullptr) *kind = std::uint32_t(number);
         return Status::ok();
     });
@@ -104,7 +115,7 @@ pileus_code pileus_clouds_place(pileus_clouds* clouds, const pileus_cloud* place
                                 pileus_error* error) {
     if (clouds == nullptr) return no_clouds(error);
     return call(*clouds->sky, error,
-                [&]() -> Status { return place_all(places, count, clouds->clouds); });
+                [&]() -> Status { return place_all(places, count, *clouds->clouds); });
 }
 
 pileus_code pileus_clouds_set_detail(pileus_clouds* clouds, const pileus_cloud_detail* detail,
@@ -113,7 +124,7 @@ pileus_code pileus_clouds_set_detail(pileus_clouds* clouds, const pileus_cloud_d
     return call(*clouds->sky, error, [&]() -> Status {
         pileus_cloud_detail given;
         if (!take(detail, given)) return no_struct("detail");
-        return set_detail(given, clouds->clouds);
+        return set_detail(given, *clouds->clouds);
     });
 }
 
@@ -129,7 +140,7 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
             return Status::bad_input("frame.layers: of skies of clouds, allowed: none");
         std::uint64_t hash = 0;
         target.hash = given.hash != nullptr ? &hash : nullptr;
-        PILEUS_TRY(clouds->clouds.render(target));
+        PILEUS_TRY(clouds->clouds->render(target));
         if (given.hash != nullptr) *given.hash = hash;
         return Status::ok();
     });
@@ -139,7 +150,7 @@ pileus_code pileus_clouds_stats(const pileus_clouds* clouds, pileus_cloud_stats*
                                 pileus_error* error) {
     if (clouds == nullptr) return no_clouds(error);
     return call(*clouds->sky, error, [&]() -> Status {
-        const CloudStats& s = clouds->clouds.stats();
+        const CloudStats& s = clouds->clouds->stats();
         pileus_cloud_stats out{};
         out.clouds = s.clouds;
         out.visible = s.visible;

@@ -16,6 +16,10 @@
 #include "src/flight/pack.h"
 #include "src/session/session.h"
 
+namespace pileus {
+class Clouds;
+}
+
 namespace pileus::api {
 
 /// The fault of a null session, told without memory.
@@ -164,6 +168,15 @@ pileus_code call_with(const pileus_host* given, pileus_error* error, Work work) 
     });
 }
 
+/// Element `i` of a caller's array that take_element knew, as far as the caller has room.
+template <class T>
+void give_element(T own, T* first, std::size_t i) {
+    const std::size_t step = marked_size(first->struct_size);
+    own.struct_size = first->struct_size;
+    unsigned char* at = reinterpret_cast<unsigned char*>(first) + i * step;
+    std::memcpy(at, static_cast<const void*>(&own), known_bytes<T>(step));
+}
+
 }  // namespace pileus::api
 
 struct pileus_scene {
@@ -226,6 +239,10 @@ private:
 
 /// One user less; the last one frees it.
 void leave(pileus_session* session);
+
+/// Clouds over a session, none at first; and what stands behind them.
+Status make_clouds(pileus_session& sky, pileus_clouds*& clouds);
+std::unique_ptr<Clouds>& clouds_of(pileus_clouds& clouds);
 
 /// The caller's buffers, as far as they are given; the hash is left out.
 Status take_target(const pileus_frame& frame, const Camera& camera, FrameTarget& target);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// See clouds.h. Kinds, places, light and shadows; clouds_frame.cpp draws.
+// See clouds.h. Kinds, layers and places; clouds_light.cpp lights them, clouds_frame.cpp draws.
 #include "src/clouds/clouds.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "platform/fp_mode.h"
+#include "src/base/angles.h"
+#include "src/base/number_text.h"
 #include "src/methods/registry.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/method_column.h"
@@ -14,21 +16,8 @@
 namespace pileus {
 namespace {
 
-/// Angle between two suns is above so many degrees.
-bool moved(const Sun& a, const Sun& b, double degrees) {
-    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
-    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
-    // |a - b| = 2 sin(angle / 2), whose halves are small.
-    return glm::length(from - to) > 2 * sincos_deg(0.5 * degrees).sine;
-}
-
-/// But for where the sun stands.
-bool same_light(const CloudLight& a, const CloudLight& b) {
-    return a.sun.present == b.sun.present && a.sun.irradiance == b.sun.irradiance &&
-           a.sky.present == b.sky.present && a.sky.radiance == b.sky.radiance &&
-           a.ground.present == b.ground.present && a.ground.albedo == b.ground.albedo &&
-           a.ground.altitude_m == b.ground.altitude_m;
-}
+/// Clouds move by so much at the most, m.
+constexpr double kMaxMoveM = 1e7;
 
 double lowest_of(const CloudBox& box) {
     double lowest = box.corners[0].z;
@@ -105,6 +94,38 @@ Status Clouds::check_height(const std::string& where, const Ground& ground,
     return Status::bad_input(where + below_ground_text(ground, lowest, place.offset_m.z));
 }
 
+/// Nothing shines; the ground is there from the beginning, as a sky's map is read with it.
+CloudLight Clouds::no_light() const {
+    CloudLight light;
+    light.ground = sky_->ground();
+    return light;
+}
+
+Status Clouds::add_layer(const Scene& scene, std::shared_ptr<const World> world) {
+    if (layers_.size() == kMaxCloudLayers)
+        return Status::bad_input("layer: one more than " + std::to_string(kMaxCloudLayers) +
+                                 ", allowed: up to " + std::to_string(kMaxCloudLayers));
+    PILEUS_TRY(SkyLayer::check(scene, *world));
+    auto made = std::make_unique<SkyLayer>();
+    PILEUS_TRY(made->open(scene, std::move(world), no_light(), sky_->camera(), options_));
+    std::uint64_t all = made->own_bytes();
+    for (const auto& layer : layers_) all = sum_of_bytes(all, layer->own_bytes());
+    PILEUS_TRY(check_limit(options_.limits, LimitId::kMemory, all, "layers of the sky"));
+    PILEUS_TRY(made->check_height("layer: ", sky_->ground(), moved_));
+    if (moved_ != Double3{}) PILEUS_TRY(made->move(moved_));
+    layers_.push_back(std::move(made));
+    shaded_ = false;
+    ++shading_;
+    return Status::ok();
+}
+
+void Clouds::clear_layers() {
+    layers_.clear();
+    sources_.clear();
+    shaded_ = false;
+    ++shading_;
+}
+
 Status Clouds::place(const std::vector<CloudPlace>& places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const CloudPlace& p = places[i];
@@ -114,20 +135,78 @@ Status Clouds::place(const std::vector<CloudPlace>& places) {
                                      ", allowed: below " + std::to_string(kinds_.size()));
         const CloudPlaceSettings given{"", p.offset_m, p.yaw_deg, p.scale};
         PILEUS_TRY(check_numbers(where.c_str(), given));
-        PILEUS_TRY(check_height(where + "offset_m: the cloud is ", sky_->ground(), p));
+        if (!(p.presence > 0 && p.presence <= 1))
+            return Status::bad_input(where + "presence: " + number_text(p.presence) +
+                                     ", allowed: above 0, up to 1");
+        CloudPlace moved = p;
+        moved.offset_m += moved_;
+        PILEUS_TRY(check_height(where + "offset_m: the cloud is ", sky_->ground(), moved));
     }
+    bool same_places = clouds_.size() == places.size();
     clouds_.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         std::unique_ptr<Cloud>& cloud = clouds_[i];
-        const CloudPlace& p = places[i];
+        CloudPlace p = places[i];
+        p.offset_m += moved_;
         const bool same = cloud != nullptr && cloud->place.kind == p.kind &&
-                          cloud->place.offset_m == p.offset_m &&
                           cloud->place.yaw_deg == p.yaw_deg && cloud->place.scale == p.scale;
-        if (!same) set_anew(p, cloud);
+        same_places = same_places && same && cloud->place.offset_m == p.offset_m;
+        if (!same)
+            set_anew(p, cloud);
+        else if (cloud->place.offset_m != p.offset_m)
+            shift(p.offset_m - cloud->place.offset_m, *cloud);
+        cloud->place = p;
     }
     drop_groups();
-    shaded_ = false;
+    shaded_ = shaded_ && same_places;
     return Status::ok();
+}
+
+/// Its pictures go with it.
+void Clouds::shift(const Double3& by, Cloud& cloud) const {
+    cloud.place.offset_m += by;
+    const CloudKind& kind = kinds_[cloud.place.kind];
+    cloud.box = box_of(cloud.place, kind.low_m, kind.high_m);
+    pileus::shift(by, cloud.newer);
+    pileus::shift(by, cloud.older);
+}
+
+Status Clouds::move(const Double3& offset_m) {
+    for (int a = 0; a < 3; ++a)
+        if (!(offset_m[a] >= -kMaxMoveM && offset_m[a] <= kMaxMoveM))
+            return Status::bad_input("offset_m: " + number_text(offset_m[a]) +
+                                     ", allowed: within 1e7 m");
+    const Double3 by = offset_m - moved_;
+    if (by == Double3{}) return Status::ok();
+    for (const auto& cloud : clouds_) {
+        CloudPlace next = cloud->place;
+        next.offset_m += by;
+        PILEUS_TRY(check_height("offset_m: a cloud is ", sky_->ground(), next));
+    }
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+        PILEUS_TRY(layers_[i]->check_height("offset_m: layer " + std::to_string(i) + " is ",
+                                            sky_->ground(), offset_m));
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        const Status moved = layers_[i]->move(offset_m);
+        if (moved) continue;
+        while (i-- > 0) (void)layers_[i]->move(moved_);
+        return moved;
+    }
+    for (auto& cloud : clouds_) shift(by, *cloud);
+    moved_ = offset_m;
+    // All that shades has gone as far, and its shadows with it.
+    for (ShadowSource& source : sources_) source.middle += by;
+    for (int a = 0; a < 2; ++a) on_ground_.low[a] += by[a];
+    if (by.z != 0) shaded_ = false;
+    return Status::ok();
+}
+
+void Clouds::clear() {
+    clouds_.clear();
+    drop_groups();
+    kinds_.clear();
+    clear_layers();
+    moved_ = Double3{};
 }
 
 void Clouds::set_anew(const CloudPlace& place, std::unique_ptr<Cloud>& cloud) const {
@@ -137,11 +216,13 @@ void Clouds::set_anew(const CloudPlace& place, std::unique_ptr<Cloud>& cloud) co
     cloud->group = SIZE_MAX;
 }
 
-void Clouds::restart() {
+Status Clouds::restart() {
     for (auto& cloud : clouds_) set_anew(CloudPlace(cloud->place), cloud);
     groups_.clear();
     given_ = light_ = CloudLight{};
     lit_ = shaded_ = false;
+    for (auto& layer : layers_) PILEUS_TRY(layer->restart(no_light(), sky_->camera()));
+    return Status::ok();
 }
 
 /// Sessions of kinds and turns that no place has any more.
@@ -189,97 +270,6 @@ Status Clouds::set_detail(const CloudDetail& d) {
         return Status::bad_input("detail.frame_pixels: " + std::to_string(d.frame_pixels) +
                                  ", allowed: 1 and more");
     detail_ = d;
-    return Status::ok();
-}
-
-/// The session of a kind and a turn; makes it.
-Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
-    const double ground_m = (light_.ground.altitude_m - place.offset_m.z) / place.scale - 1;
-    for (group = 0; group < groups_.size(); ++group)
-        if (groups_[group]->is(place.kind, place.yaw_deg))
-            return light_.ground.present ? groups_[group]->stand_over(ground_m) : Status::ok();
-    const StageClock clock(sky_->context(), "clouds lit");
-    auto made = std::make_unique<CloudGroup>();
-    PILEUS_TRY(
-        made->open(kinds_[place.kind], place.kind, place.yaw_deg, light_, ground_m, options_));
-    PILEUS_TRY(check_memory(*made, place.kind));
-    ++stats_.lit;
-    groups_.push_back(std::move(made));
-    return Status::ok();
-}
-
-/// Groups whose light is older than the sun are lit anew, one in each frame.
-Status Clouds::light_up(const Scenery& scenery) {
-    const Scene& scene = *scenery.scene;
-    if (scene.sky.present && scenery.environment.sky_map.present() && !scene.atmosphere.present)
-        return Status::bad_input(
-            "sky.map: a picture, allowed for clouds: [atmosphere] or a constant radiance");
-    // The ground may have been raised since the clouds were placed.
-    for (std::size_t i = 0; i < clouds_.size(); ++i)
-        PILEUS_TRY(check_height("ground.altitude_m: cloud " + std::to_string(i) + " is ",
-                                sky_->ground(), clouds_[i]->place));
-    const bool air = scene.atmosphere.present;
-    CloudLight now;
-    now.sun = scene.sun;
-    now.sky = scene.sky;
-    now.ground = scene.ground;
-    if (!lit_ || moved(given_.sun, now.sun, detail_.on ? detail_.sun_deg : 0) ||
-        !same_light(given_, now)) {
-        const CloudLight given = now;
-        if (air) {
-            double height = 0;
-            for (const auto& cloud : clouds_)
-                height += cloud->box.middle.z / double(clouds_.size());
-            const double sea = scene.ground.present ? scene.ground.altitude_m : 0;
-            PILEUS_TRY(light_atmosphere(scene.atmosphere, scene.sun, scene.ground, height - sea,
-                                        sky_->context().threads, air_, air_map_));
-            for (std::size_t c = 0; c < 3; ++c)
-                now.sun.irradiance[c] = float(air_.above[int(c)] * air_.sunlight[c]);
-            now.sky = Sky{};
-            now.sky.present = true;
-            now.map = &air_map_;
-        }
-        now.version = light_.version + 1;
-        light_ = now;
-        given_ = given;
-        lit_ = true;
-    }
-    for (auto& cloud : clouds_) {
-        if (cloud->group != SIZE_MAX) continue;
-        // One that could not be made is tried again.
-        std::size_t group = 0;
-        PILEUS_TRY(group_of(cloud->place, group));
-        cloud->group = group;
-    }
-    for (auto& group : groups_) {
-        if (group->lit() == light_.version) continue;
-        const StageClock clock(sky_->context(), "clouds lit");
-        PILEUS_TRY(group->light(light_));
-        ++stats_.lit;
-        shaded_ = false;
-        if (detail_.on) break;
-    }
-    return Status::ok();
-}
-
-Status Clouds::cast_shadows() {
-    if (shaded_) return Status::ok();
-    plane_ = sun_plane(light_.sun);
-    std::vector<ShadowSource> sources;
-    for (const auto& cloud : clouds_) {
-        const CloudGroup& group = *groups_[cloud->group];
-        ShadowSource source;
-        source.middle = cloud->box.middle;
-        source.radius = group.shadow_radius() * cloud->place.scale;
-        if (!group.shadow().empty()) source.shadow = group.shadow().data();
-        sources.push_back(source);
-    }
-    for (std::size_t i = 0; i < clouds_.size(); ++i)
-        PILEUS_TRY(shade_cloud(plane_, sources, i, clouds_[i]->shade));
-    on_ground_ = CloudsOnGround{};
-    if (light_.ground.present && light_.sun.present)
-        PILEUS_TRY(shade_ground(plane_, sources, light_.ground.altitude_m, on_ground_));
-    shaded_ = true;
     return Status::ok();
 }
 

@@ -4,11 +4,14 @@
 #include <glm/geometric.hpp>
 
 #include "platform/fp_mode.h"
+#include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/clouds/clouds.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/world/camera/view.h"
+#include "src/world/solids/camera_depth.h"
 
 namespace pileus {
 namespace {
@@ -24,6 +27,24 @@ constexpr double kSlackDeg = 1;
 /// Parts of the picture begin at multiples of it: the coarsest near_scale.
 constexpr int kLattice = 4;
 
+/// What composing reads of a picture of media alone.
+Status copy_media(const Planes& from, Planes& to) {
+    const auto copy = [](const Buffer<float>& a, Buffer<float>& b) -> Status {
+        if (a.size() != b.size()) PILEUS_TRY(b.resize(a.size(), "picture of a near cloud"));
+        std::copy(a.span().begin(), a.span().end(), b.span().begin());
+        return Status::ok();
+    };
+    PILEUS_TRY(copy(from.transmittance, to.transmittance));
+    PILEUS_TRY(copy(from.half_depth, to.half_depth));
+    const std::size_t colours = 3 * from.transmittance.size();
+    const Buffer<float>& light = from.cloud.empty() ? from.colour : from.cloud;
+    if (to.colour.size() != colours)
+        PILEUS_TRY(to.colour.resize(colours, "picture of a near cloud"));
+    std::copy(light.span().begin(), light.span().begin() + std::ptrdiff_t(colours),
+              to.colour.span().begin());
+    return Status::ok();
+}
+
 }  // namespace
 
 CloudShade Clouds::shade_of(const Cloud& cloud) const {
@@ -32,6 +53,7 @@ CloudShade Clouds::shade_of(const Cloud& cloud) const {
     out.texels = cloud.shade.empty() ? nullptr : cloud.shade.data();
     out.ambient = groups_[cloud.group]->ambient();
     out.middle = cloud.box.middle;
+    out.sky_left = sky_left(cloud.box.middle.z);
     out.radius = groups_[cloud.group]->shadow_radius() * cloud.place.scale;
     return out;
 }
@@ -64,6 +86,8 @@ Status Clouds::take_picture(const CloudView& view, Cloud& cloud) {
     PILEUS_TRY(capture(view, cloud.place, cloud.box, shade_of(cloud), detail_.sharpness, group,
                        cloud.newer));
     cloud.newer.light = group.lit();
+    cloud.newer.level = group.lit_level();
+    cloud.newer.shading = shading_;
     ++stats_.captured;
     stats_.captured_pixels += std::uint64_t(cloud.newer.width) * std::uint64_t(cloud.newer.height);
     return Status::ok();
@@ -92,7 +116,7 @@ void Clouds::judge(const CloudView& view, Cloud& cloud, Seen& seen) const {
         return;
     }
     seen.error = impostor_error(cloud.newer, view, cloud.box) / detail_.error_px;
-    if (cloud.newer.light != groups_[cloud.group]->lit())
+    if (cloud.newer.light != groups_[cloud.group]->lit() || cloud.newer.shading != shading_)
         seen.error = std::max(seen.error, 1.0) + 0.5;
 }
 
@@ -167,19 +191,22 @@ Status Clouds::choose(const CloudView& view) {
     return Status::ok();
 }
 
-CloudLayer Clouds::layer_of(const CloudView& view, const Cloud& cloud,
-                            const MarchedCloud& marched) const {
-    CloudLayer layer;
+ShownCloud Clouds::show(const CloudView& view, const Cloud& cloud,
+                        const MarchedCloud& marched) const {
+    ShownCloud shown;
     const auto source = [&](const Impostor& impostor, bool is_marched) {
         CloudSource out;
-        if (is_marched)
+        if (is_marched) {
             out.picture = &marched;
-        else
+            out.gain = light_gain(groups_[cloud.group]->lit_level(), light_.level);
+        } else {
             out.impostor = &impostor;
+            out.gain = light_gain(impostor.level, light_.level);
+        }
         const PixelRect rect =
             is_marched ? marched.rect
                        : covered(view, impostor.corners.data(), impostor.corners.size());
-        PixelRect& all = layer.rect;
+        PixelRect& all = shown.rect;
         if (all.empty()) {
             all = rect;
         } else if (!rect.empty()) {
@@ -188,27 +215,107 @@ CloudLayer Clouds::layer_of(const CloudView& view, const Cloud& cloud,
         }
         return out;
     };
-    layer.newer = source(cloud.newer, cloud.newer_marched);
-    if (!cloud.has_older) return layer;
-    layer.older = source(cloud.older, cloud.older_marched);
-    layer.share = float(cloud.faded) / float(detail_.blend_frames);
-    return layer;
+    shown.presence = float(cloud.place.presence);
+    shown.newer = source(cloud.newer, cloud.newer_marched);
+    if (!cloud.has_older) return shown;
+    shown.older = source(cloud.older, cloud.older_marched);
+    shown.share = float(cloud.faded) / float(detail_.blend_frames);
+    return shown;
 }
 
-/// The clouds of the picture, each marched where it is to be.
+/// The clouds of the picture, each marched where it is to be, and its layers, by what is nearest.
+Status Clouds::march_all(const CloudView& view, const Camera& camera, int frame,
+                         const std::vector<LayerPicture>& layers, std::vector<ShownCloud>& shown) {
+    const auto is_marched = [&](const Seen& s) {
+        const Cloud& cloud = *clouds_[s.cloud];
+        return cloud.newer_marched || (cloud.has_older && cloud.older_marched);
+    };
+    // Layers may begin anywhere.
+    for (const LayerPicture& layer : layers) {
+        ShownCloud all;
+        all.layer = &layer;
+        all.rect = {0, 0, view.width, view.height};
+        shown.push_back(all);
+    }
+    marched_.assign(seen_.size(), MarchedCloud{});
+    std::size_t copies = 0;
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+        const Seen& s = seen_[i];
+        Cloud& cloud = *clouds_[s.cloud];
+        if (is_marched(s)) {
+            PILEUS_TRY(march(view, camera, frame, cloud, marched_[i]));
+            // A group keeps its last picture alone.
+            bool last = true;
+            for (std::size_t j = i + 1; j < seen_.size() && last; ++j)
+                last = !is_marched(seen_[j]) || clouds_[seen_[j].cloud]->group != cloud.group;
+            if (!last) {
+                if (copies == copies_.size()) copies_.push_back(std::make_unique<Planes>());
+                PILEUS_TRY(copy_media(*marched_[i].planes, *copies_[copies]));
+                marched_[i].planes = copies_[copies++].get();
+            }
+        }
+        shown.push_back(show(view, cloud, marched_[i]));
+        shown.back().near_m = float(std::max(s.distance - cloud.box.radius, 0.0));
+    }
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const ShownCloud& a, const ShownCloud& b) { return a.near_m < b.near_m; });
+    return Status::ok();
+}
+
+/// Each in its own session, to what hides it.
+Status Clouds::draw_layers(std::vector<LayerPicture>& pictures) {
+    const StageClock clock(sky_->context(), "layers of the sky");
+    layer_sources_.resize(layers_.size());
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        LayerPicture picture;
+        PILEUS_TRY(layers_[i]->draw(sky_->camera(), sky_->frame(), planes_.opaque_depth.span(),
+                                    picture.planes));
+        picture.layer = layers_[i].get();
+        picture.plane = &plane_;
+        picture.sky_left = sky_left(layers_[i]->middle_m());
+        // What may stand between some of it and the sun.
+        std::vector<ShadowSource>& above = layer_sources_[i];
+        above.clear();
+        for (std::size_t j = 0; j < sources_.size(); ++j) {
+            const ShadowSource& s = sources_[j];
+            const bool layer = j >= clouds_.size();
+            if (j == clouds_.size() + i || (layer ? s.plane == nullptr : s.shadow == nullptr))
+                continue;
+            const double top = s.middle.z + (layer ? 0 : s.radius);
+            if (top > layers_[i]->low_m()) above.push_back(s);
+        }
+        if (!above.empty() && light_.sun.present && light_.sun.elevation_deg > 0) {
+            picture.sources = &above;
+            const double sine = sincos_deg(light_.sun.elevation_deg).sine;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float sun = float(sine) * light_.sun.irradiance[c];
+                picture.sun_share[c] = light_.level[c] > 0 ? sun / light_.level[c] : 0.0f;
+            }
+        }
+        pictures.push_back(picture);
+    }
+    return Status::ok();
+}
+
 Status Clouds::compose(const CloudView& view, const Camera& camera, int frame) {
     const Context& context = sky_->context();
-    begin_clouds(context.threads, planes_);
-    for (const Seen& s : seen_) {
-        Cloud& cloud = *clouds_[s.cloud];
-        MarchedCloud marched;
-        if (cloud.newer_marched || (cloud.has_older && cloud.older_marched))
-            PILEUS_TRY(march(view, camera, frame, cloud, marched));
-        const StageClock clock(context, "clouds composed");
-        add_cloud(view, layer_of(view, cloud, marched), context.threads, planes_);
-    }
-    end_clouds(context.threads, planes_);
-    return Status::ok();
+    std::vector<LayerPicture> layers;
+    PILEUS_TRY(draw_layers(layers));
+    std::vector<ShownCloud> shown;
+    PILEUS_TRY(march_all(view, camera, frame, layers, shown));
+    const StageClock clock(context, "clouds composed");
+    return compose_clouds(view, shown, context.threads, planes_);
+}
+
+/// What of a host's own picture is not hidden by something of ours.
+void Clouds::keep_host(const Lighting& lighting) {
+    const std::size_t pixels = planes_.transmittance.size();
+    parallel_each(sky_->context().threads, pixels, [&](std::size_t i) {
+        const float metres = lighting.depth != nullptr ? lighting.depth->metres[i] : 0.0f;
+        const bool host = lighting.depth != nullptr && metres < __builtin_inff() &&
+                          metres == planes_.opaque_depth[i];
+        for (std::size_t c = 0; c < 3 && !host; ++c) planes_.kept[c * pixels + i] = 0;
+    });
 }
 
 Status Clouds::draw(bool depths, const Planes*& planes) {
@@ -231,6 +338,7 @@ Status Clouds::draw(bool depths, const Planes*& planes) {
     PILEUS_TRY(allocate_planes(view.width, view.height, 3, lighting.opaque(), true, planes_));
     const MediumView nothing = make_medium_view(medium, Majorants{});
     BackgroundParams k = background_params(nothing, seen, lighting);
+    for (float& c : k.ground_diffuse) c *= sky_left(light_.ground.altitude_m);
     BackgroundBuffers b{nullptr, planes_.background.data(), planes_.opaque_depth.data()};
     const float none = 0;
     k.shadow = NodeGrid{{1, 1, 1}, {1e-9f, 1e-9f, 1}};
@@ -245,8 +353,15 @@ Status Clouds::draw(bool depths, const Planes*& planes) {
         PILEUS_TRY(show_background(context, lighting, k, b));
     }
     PILEUS_TRY(compose(view, camera, sky_->frame()));
+    planes_.kept.truncate(0);
+    if (over_host_) {
+        PILEUS_TRY(planes_.kept.resize(planes_.colour.size(), "share of a host's pixels"));
+        parallel_each(sky_->context().threads, planes_.kept.size(),
+                      [&](std::size_t i) { planes_.kept[i] = 1; });
+    }
     PILEUS_TRY(
         show_air(context, *around->scene, medium, lighting, seen, around->environment, planes_));
+    if (over_host_) keep_host(lighting);
     for (std::size_t i = 0; depths && i < planes_.half_depth.size(); ++i)
         if (planes_.transmittance[i] > 0.5f) planes_.half_depth[i] = __builtin_inff();
     planes = &planes_;

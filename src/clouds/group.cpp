@@ -18,6 +18,18 @@ double seen_azimuth(double azimuth_deg, double yaw_deg) {
 
 }  // namespace
 
+std::array<float, 3> light_gain(const std::array<float, 3>& then, const std::array<float, 3>& now) {
+    // A light that was all but out says nothing of another one's colour.
+    constexpr float kMaxGain = 4;
+    std::array<float, 3> gain{1, 1, 1};
+    for (std::size_t c = 0; c < 3; ++c)
+        if (then[c] > 0 && then[c] != now[c]) {
+            const float ratio = now[c] / then[c];
+            gain[c] = ratio < kMaxGain ? ratio : kMaxGain;
+        }
+    return gain;
+}
+
 SunPlane sun_plane(const Sun& sun) {
     SunPlane out;
     out.to_sun = towards_deg(sun.azimuth_deg, sun.elevation_deg);
@@ -110,11 +122,15 @@ Status CloudGroup::light(const CloudLight& light) {
     PILEUS_TRY(session_->set_sky(sky, light.map, false));
     PILEUS_TRY(session_->set_ground(ground_));
     PILEUS_TRY(trace());
-    if (shines) PILEUS_TRY(mean_radiance(all));
+    // Without a sun all of it is the sky's, and nothing is to be taken away.
+    PILEUS_TRY(mean_radiance(all));
     for (std::size_t c = 0; c < 3; ++c)
         ambient_[c] = float(all[c] > alone[c] ? all[c] - alone[c] : 0);
+    PILEUS_TRY(draw_shadow(light));
     lit_ = light.version;
-    return draw_shadow(light);
+    lit_sun_ = light.sun;
+    lit_level_ = light.level;
+    return Status::ok();
 }
 
 /// Sees all of the cloud from a direction, from two radii off.

@@ -23,8 +23,13 @@ struct CloudLight {
     Sky sky;
     const Image* map = nullptr;  ///< null: the constant sky
     Ground ground;
-    std::uint64_t version = 0;  ///< grows with each change
+    std::array<float, 3> level{};  ///< irradiance of sun and sky on level ground
+    std::uint64_t version = 0;     ///< grows with each change
 };
+
+/// What light of `then` is to be multiplied with to be nearly that of `now`: 1 where it is the
+/// same.
+std::array<float, 3> light_gain(const std::array<float, 3>& then, const std::array<float, 3>& now);
 
 /// Texels along a side of a shadow.
 constexpr int kSunTexels = 64;
@@ -36,6 +41,9 @@ public:
                 double ground_m, const RenderOptions& options);
     bool is(std::size_t kind, double yaw_deg) const { return kind_ == kind && yaw_deg_ == yaw_deg; }
     std::uint64_t lit() const { return lit_; }
+    /// The sun and the irradiance on level ground that it was lit by.
+    const Sun& lit_sun() const { return lit_sun_; }
+    const std::array<float, 3>& lit_level() const { return lit_level_; }
     /// Light from below is that of a ground without end, wherever it lies: it lies lower than all
     /// cameras, and where a cloud needs it lower it goes there.
     Status stand_over(double ground_m);
@@ -83,6 +91,8 @@ private:
     Buffer<float> shadow_;
     std::array<float, 3> ambient_{};
     std::uint64_t lit_ = 0;
+    Sun lit_sun_;
+    std::array<float, 3> lit_level_{};
 };
 
 /// Axes of the plane that the sun looks at, right and up as it sees them.

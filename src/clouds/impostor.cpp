@@ -73,6 +73,7 @@ bool MarchedCloud::sample(int x, int y, const Double3& eye, const Double3& ray,
     }
     out[3] = alpha;
     out[4] = depth(x, y);
+    shade.dim_sky(out);
     if (shade.texels != nullptr) shade.darken(shade.left(eye + ray * double(out[4])), out);
     return true;
 }
@@ -132,6 +133,11 @@ Status capture(const CloudView& view, const CloudPlace& place, const CloudBox& b
     fill_texels(picture, own, group.threads(), out);
     out.made = true;
     return Status::ok();
+}
+
+void shift(const Double3& by, Impostor& impostor) {
+    impostor.eye += by;
+    for (Double3& corner : impostor.corners) corner += by;
 }
 
 double impostor_error(const Impostor& impostor, const CloudView& view, const CloudBox& box) {

@@ -21,9 +21,14 @@ struct Impostor {
     int width = 0, height = 0;
     double texels_per_unit = 0;
     std::uint64_t light = 0;           ///< CloudLight::version
+    std::array<float, 3> level{};      ///< CloudLight::level of it
+    std::uint64_t shading = 0;         ///< of layers above: Clouds counts them
     std::array<Double3, 4> corners{};  ///< in the world
     Buffer<float> texels;              ///< [row from the top][column][kTexelFloats]
 };
+
+/// With its cloud, that has gone somewhere else.
+void shift(const Double3& by, Impostor& impostor);
 
 /// What stands between a cloud and the sun, for each of its pixels.
 struct CloudShade {
@@ -32,15 +37,23 @@ struct CloudShade {
     std::array<float, 3> ambient{};
     Double3 middle{};
     double radius = 1;
+    float sky_left = 1;  ///< of the light that is not the sun's, through layers above
 
     /// Share of sunlight that is left at a place of the world.
     float left(const Double3& at) const;
+    /// Without a sun all light is the sky's.
+    void dim_sky(float (&rgba)[5]) const {
+        if (texels != nullptr || !(sky_left < 1)) return;
+        for (std::size_t c = 0; c < 3; ++c) rgba[c] *= sky_left;
+    }
     /// Takes from premultiplied light what the sun no longer sends: all that is more than what
     /// light from all around alone would give.
     void darken(float left, float (&rgba)[5]) const {
         for (std::size_t c = 0; c < 3; ++c) {
             const float sun = rgba[c] - ambient[c] * rgba[3];
             if (sun > 0) rgba[c] -= (1.0f - left) * sun;
+            if (sky_left < 1)
+                rgba[c] -= (1.0f - sky_left) * (sun > 0 ? ambient[c] * rgba[3] : rgba[c]);
         }
     }
 };

@@ -17,6 +17,7 @@ struct CloudPlace {
     Double3 offset_m{};
     double yaw_deg = 0;
     double scale = 1;
+    double presence = 1;  ///< factor on its alpha and light: clouds that grow or fade away
 };
 
 /// A box of the world, turned about the z axis, and the ball around it.

@@ -2,9 +2,12 @@
 // See render_clouds.h.
 #include "src/clouds/render_clouds.h"
 
+#include <algorithm>
+
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
 #include "src/clouds/scene_clouds.h"
+#include "src/clouds/weather_clouds.h"
 #include "src/picture/finish_frame.h"
 #include "src/plan/crop.h"
 #include "src/session/deliver.h"
@@ -16,16 +19,16 @@
 namespace pileus {
 namespace {
 
-/// Of the kinds, each once.
+/// Of the kinds and layers, each once.
 std::string methods_of(const CloudCounts& clouds) {
-    std::string all;
-    for (std::size_t i = 0; i < clouds.kinds.size(); ++i) {
-        bool told = false;
-        for (std::size_t j = 0; j < i; ++j)
-            told = told || clouds.kinds[j].method == clouds.kinds[i].method;
-        if (!told) all += (all.empty() ? "" : ", ") + clouds.kinds[i].method;
-    }
-    return all;
+    std::vector<std::string> all;
+    for (const auto* list : {&clouds.kinds, &clouds.layers})
+        for (const CloudKindCount& part : *list)
+            if (std::find(all.begin(), all.end(), part.method) == all.end())
+                all.push_back(part.method);
+    std::string text;
+    for (const std::string& method : all) text += (text.empty() ? "" : ", ") + method;
+    return text;
 }
 
 /// What is set in the sky's session from frame to frame.
@@ -42,11 +45,9 @@ public:
         const double turned = orbit_at(rest_, frame);
         if (turned != 0) camera.position_m = orbit(camera.position_m, camera.target_m, turned);
         PILEUS_TRY(sky.set_camera(camera));
+        if (moves_time(scene_)) return sky.set_hours(hours_at(scene_, frame), scene_.sun);
         Sun sun = rest_.sun;
-        if (moves_time(scene_)) {
-            sun = scene_.sun;
-            place_sun(scene_.atmosphere, hours_at(scene_, frame), sun);
-        } else if (moves_sun(scene_)) {
+        if (moves_sun(scene_)) {
             const SunPlace at = sun_at(rest_, rest_.sun, frame);
             sun.azimuth_deg = at.azimuth_deg;
             sun.elevation_deg = at.elevation_deg;
@@ -84,6 +85,8 @@ Status draw_image(const Scene& scene, Session& sky, Clouds& clouds, Image& image
 Status render_clouds(const Scene& described, const RenderOptions& options, const FrameSink& sink) {
     // A picture of all of the view, which is cut.
     Scene scene = described;
+    std::vector<std::string> notes, unknown;
+    PILEUS_TRY(apply_weather(scene, &notes, &unknown));
     const Shown shown = take_window(scene);
     scene.crop = {};
     const FpModeGuard guard;
@@ -101,6 +104,7 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
     PILEUS_TRY(open_scene_clouds(scene, options, sky, clouds, report.clouds));
     report.method = methods_of(report.clouds);
     explain_crop(described, report.plan);
+    report.clouds.notes = notes;
     if (!scene.solids.empty())
         report.plan.leave_out("shadows of solids on clouds",
                               "a sky's clouds know one another alone");
@@ -110,7 +114,7 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
         const RunStart frame_start;
         Image image;
         PILEUS_TRY(animation.set(frame, sky));
-        if (run > 0 && frame % run == 0) clouds.restart();
+        if (run > 0 && frame % run == 0) PILEUS_TRY(clouds.restart());
         PILEUS_TRY(draw_image(scene, sky, clouds, image, report));
         if (frame < first) continue;
         PILEUS_TRY(cut_image(sky.camera(), shown, image));
@@ -118,6 +122,7 @@ Status render_clouds(const Scene& described, const RenderOptions& options, const
         take_hash(context, image, report);
         tell_picture(clouds.stats(), report.clouds);
         find_warnings(scene, image, report);
+        for (const std::string& group : unknown) report.warnings.push_back(group);
         report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);

@@ -95,6 +95,7 @@ Status scatter_clouds(const CloudScatter& scatter, const std::array<double, 2>& 
             taken.push_back(own);
             places.push_back(place);
         }
+        if (!free && scatter.fewer) return Status::ok();
         if (!free)
             return Status::bad_input("room for " + std::to_string(i) + " of " +
                                      std::to_string(scatter.count) +

@@ -13,19 +13,51 @@ std::string key_of(const char* list, std::size_t index, const char* member) {
     return std::string("clouds.") + list + "." + std::to_string(index) + "." + member;
 }
 
-Status read_kind(const Scene& scene, std::size_t number, Scene& kind) {
-    const CloudKindSettings& settings = scene.clouds.kinds[number];
-    const std::string path = scene_path(scene.directory, settings.scene);
-    Status status = read_scene_file(path, settings.sets, kind);
-    if (status && kind.clouds.present())
+/// A kind or a layer: of a file, or of a text that a report made.
+template <class Settings>
+Status read_part(const Scene& scene, const char* list, std::size_t number, const Settings& settings,
+                 Scene& part) {
+    const bool made = !settings.text.empty();
+    const std::string path = made ? "weather" : scene_path(scene.directory, settings.scene);
+    Status status = made
+                        ? read_scene_text(settings.text, path, scene.directory, settings.sets, part)
+                        : read_scene_file(path, settings.sets, part);
+    if (status && part.clouds.present())
         status = Status::bad_input(path +
                                    ": [clouds] of its own, allowed: a scene with "
                                    "[[medium]]");
-    if (status && film_run(scene) > 0 && has_sequence(kind))
+    if (status && film_run(scene) > 0 && has_sequence(part))
         status = Status::bad_input(path +
                                    ": a sequence of files in a film of clouds, which would show "
                                    "the first, allowed: one file");
-    return at_key(scene, key_of("kind", number, "scene"), status);
+    return made ? status : at_key(scene, key_of(list, number, "scene"), status);
+}
+
+RenderOptions own_options(const Context& context, const RenderOptions& options) {
+    RenderOptions own;
+    own.threads = context.threads;
+    own.kernels = context.kernels;
+    own.limits = options.limits;
+    return own;
+}
+
+Status add_layers(const Scene& scene, const RenderOptions& options, Session& sky, Clouds& clouds,
+                  CloudCounts& told) {
+    const Context& context = sky.context();
+    const StageClock clock(context, "layers of the sky");
+    const RenderOptions own = own_options(context, options);
+    for (std::size_t i = 0; i < scene.clouds.layers.size(); ++i) {
+        const CloudLayerSettings& settings = scene.clouds.layers[i];
+        Scene layer;
+        PILEUS_TRY(read_part(scene, "layer", i, settings, layer));
+        const std::string key = key_of("layer", i, "scene");
+        std::shared_ptr<const World> world;
+        PILEUS_TRY(at_key(scene, key, make_world(layer, own, world)));
+        PILEUS_TRY(at_key(scene, key, clouds.add_layer(layer, std::move(world))));
+        const std::string name = settings.text.empty() ? settings.scene : "weather";
+        told.layers.push_back({name, settings.scene, layer.method, 1});
+    }
+    return Status::ok();
 }
 
 Status add_kinds(const Scene& scene, const RenderOptions& options, Session& sky, Clouds& clouds,
@@ -34,13 +66,11 @@ Status add_kinds(const Scene& scene, const RenderOptions& options, Session& sky,
     const std::size_t count = scene.clouds.kinds.size();
     std::vector<Scene> kinds(count);
     // What is wrong with a text shows before anything is prepared.
-    for (std::size_t i = 0; i < count; ++i) PILEUS_TRY(read_kind(scene, i, kinds[i]));
+    for (std::size_t i = 0; i < count; ++i)
+        PILEUS_TRY(read_part(scene, "kind", i, scene.clouds.kinds[i], kinds[i]));
 
     const StageClock clock(context, "kinds of clouds");
-    RenderOptions own;
-    own.threads = context.threads;
-    own.kernels = context.kernels;
-    own.limits = options.limits;
+    const RenderOptions own = own_options(context, options);
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::string key = key_of("kind", i, "scene");
@@ -80,8 +110,9 @@ Status list_places(const Scene& scene, const Clouds& clouds, std::vector<CloudPl
         const CloudScatter& scatter = settings.scatters[i];
         std::vector<std::size_t> kinds;
         for (const std::string& name : scatter.kinds) kinds.push_back(number_of(settings, name));
+        // Those of a report have places of their own.
         for (std::size_t k = 0; scatter.kinds.empty() && k < settings.kinds.size(); ++k)
-            kinds.push_back(k);
+            if (settings.kinds[k].text.empty()) kinds.push_back(k);
         const Double3& eye = scene.camera.position_m;
         const std::array<double, 2> center =
             scatter.has_center ? scatter.center_m : std::array<double, 2>{eye.x, eye.y};
@@ -107,8 +138,14 @@ Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky) 
 Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
                          Clouds& clouds, CloudCounts& told) {
     PILEUS_TRY(clouds.open(sky));
+    return fill_scene_clouds(scene, options, sky, clouds, told);
+}
+
+Status fill_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
+                         Clouds& clouds, CloudCounts& told) {
     PILEUS_TRY(at_key(scene, "clouds.detail", clouds.set_detail(scene.clouds.detail)));
     PILEUS_TRY(add_kinds(scene, options, sky, clouds, told));
+    PILEUS_TRY(add_layers(scene, options, sky, clouds, told));
     std::vector<CloudPlace> places;
     PILEUS_TRY(list_places(scene, clouds, places));
     told.clouds = places.size();

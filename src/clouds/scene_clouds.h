@@ -16,4 +16,8 @@ Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky);
 Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
                          Clouds& clouds, CloudCounts& told);
 
+/// The same of clouds that are open.
+Status fill_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
+                         Clouds& clouds, CloudCounts& told);
+
 }  // namespace pileus

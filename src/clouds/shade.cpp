@@ -17,6 +17,8 @@ constexpr double kLowestSine = 0.02;
 /// What is left of sunlight counts as so much at least: a depth of 25.
 constexpr double kMinLight = 1e-11;
 constexpr double kLn2 = 0.693147180559945309;
+/// Mean cosine of scattering by cloud droplets.
+constexpr double kDropletCosine = 0.86;
 
 /// Light that is scattered again and again does not end where a shadow does: means over 5 texels
 /// along both axes, twice, a sixth of the cloud's width in all. Beyond the rim it is as at the rim.
@@ -58,26 +60,65 @@ float shadow_at(const float* texels, int side, float x, float y) {
     return top + (texel(0, 1) + (texel(1, 1) - texel(0, 1)) * fx - top) * fy;
 }
 
+float left_by(const ShadowSource& source, const SunPlane& plane, const Double3& at) {
+    const SunPlane& seen = source.plane != nullptr ? *source.plane : plane;
+    const Double3 to = at - source.middle;
+    const float x = float(glm::dot(to, seen.right) / source.radius);
+    const float y = float(glm::dot(to, seen.up) / source.radius);
+    if (source.shadow == nullptr) return source.beyond;
+    const bool beyond = !(x > -1 && x < 1 && y > -1 && y < 1);
+    if (source.plane != nullptr && beyond) return source.beyond;
+    return shadow_at(source.shadow, source.side, x, y);
+}
+
+bool is_sunward(const ShadowSource& source, const SunPlane& plane, const Double3& at) {
+    if (source.plane != nullptr) return at.z < source.middle.z;
+    if (source.shadow == nullptr) return false;
+    return glm::dot(source.middle - at, plane.to_sun) > 0;
+}
+
+float total_left(float left, double mean_cosine) {
+    const double depth = -kLn2 * log2_of(std::max(double(left), kMinLight));
+    return left < 1 ? float(1 / (1 + 0.75 * (1 - mean_cosine) * depth)) : 1.0f;
+}
+
+float sunlight_left(const SunPlane& plane, const std::vector<ShadowSource>& all, const Double3& at,
+                    std::size_t own, bool spread) {
+    float left = 1;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+        if (j == own || !is_sunward(all[j], plane, at)) continue;
+        const float by = left_by(all[j], plane, at);
+        left *= spread && all[j].plane == nullptr ? total_left(by, kDropletCosine) : by;
+    }
+    return left;
+}
+
 Status shade_cloud(const SunPlane& plane, const std::vector<ShadowSource>& all, std::size_t own,
                    Buffer<float>& shade) {
     shade = Buffer<float>();
     const ShadowSource& me = all[own];
     for (std::size_t j = 0; j < all.size(); ++j) {
         const ShadowSource& other = all[j];
-        if (j == own || other.shadow == nullptr) continue;
+        if (j == own || !is_sunward(other, plane, me.middle)) continue;
         const Double3 to = other.middle - me.middle;
-        if (glm::dot(to, plane.to_sun) <= 0) continue;
         const double x = glm::dot(to, plane.right), y = glm::dot(to, plane.up);
         const double reach = me.radius + other.radius;
-        if (x > reach || x < -reach || y > reach || y < -reach) continue;
+        const bool layer = other.plane != nullptr;
+        if (!layer && (x > reach || x < -reach || y > reach || y < -reach)) continue;
         if (shade.empty()) {
             PILEUS_TRY(shade.resize(kShadeTexels * kShadeTexels, "shadow on a cloud"));
             for (float& v : shade.span()) v = 1;
         }
         for (int row = 0; row < kShadeTexels; ++row)
             for (int column = 0; column < kShadeTexels; ++column) {
-                const double at_x = ((column + 0.5) * 2 / kShadeTexels - 1) * me.radius - x;
-                const double at_y = (1 - (row + 0.5) * 2 / kShadeTexels) * me.radius - y;
+                const double from_x = ((column + 0.5) * 2 / kShadeTexels - 1) * me.radius;
+                const double from_y = (1 - (row + 0.5) * 2 / kShadeTexels) * me.radius;
+                const double at_x = from_x - x, at_y = from_y - y;
+                if (layer) {
+                    shade[std::size_t(row * kShadeTexels + column)] *=
+                        left_by(other, plane, me.middle + plane.right * from_x + plane.up * from_y);
+                    continue;
+                }
                 shade[std::size_t(row * kShadeTexels + column)] *= float(
                     shadow_at(other.shadow, kSunTexels, at_x / other.radius, at_y / other.radius));
             }
@@ -94,14 +135,17 @@ Status shade_ground(const SunPlane& plane, const std::vector<ShadowSource>& all,
     if (s.z < kLowestSine) return Status::ok();
     double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, smallest = 1e300;
     const auto foot = [&](const ShadowSource& c, int a) {
-        return c.middle[a] - s[a] * ((c.middle.z - ground_m) / s.z);
+        const Double3& own = c.plane != nullptr ? c.plane->to_sun : s;
+        return c.middle[a] - own[a] * ((c.middle.z - ground_m) / own.z);
     };
     for (const ShadowSource& c : all) {
         if (c.shadow == nullptr || c.middle.z <= ground_m) continue;
-        smallest = std::min(smallest, c.radius);
+        smallest = std::min(smallest, c.plane != nullptr ? c.radius / 16 : c.radius);
         for (int a = 0; a < 2; ++a) {
-            low[a] = std::min(low[a], foot(c, a) - c.radius / s.z);
-            high[a] = std::max(high[a], foot(c, a) + c.radius / s.z);
+            // The rim of a layer's goes on beyond the nodes.
+            const double reach = c.plane != nullptr ? c.radius : c.radius / s.z;
+            low[a] = std::min(low[a], foot(c, a) - reach);
+            high[a] = std::max(high[a], foot(c, a) + reach);
         }
     }
     if (smallest > 1e299) return Status::ok();
@@ -125,15 +169,14 @@ Status shade_ground(const SunPlane& plane, const std::vector<ShadowSource>& all,
             const double at = (foot(c, a) - out.low[a]) / spacing, reach = c.radius / s.z / spacing;
             first[a] = std::max(1, int(at - reach));
             last[a] = std::min(out.nodes.size[a] - 2, int(at + reach) + 1);
+            // Beyond its square, and beyond the nodes, a layer goes on.
+            if (c.plane != nullptr) first[a] = 0, last[a] = out.nodes.size[a] - 1;
         }
         for (int j = first[1]; j <= last[1]; ++j)
             for (int i = first[0]; i <= last[0]; ++i) {
                 const Double3 at{out.low[0] + (i + 0.5) * spacing, out.low[1] + (j + 0.5) * spacing,
                                  ground_m};
-                const Double3 to = at - c.middle;
-                const double left = double(shadow_at(c.shadow, kSunTexels,
-                                                     float(glm::dot(to, plane.right) / c.radius),
-                                                     float(glm::dot(to, plane.up) / c.radius)));
+                const double left = double(left_by(c, plane, at));
                 if (left >= 1) continue;
                 out.depth[std::size_t(j) * columns + std::size_t(i)] -=
                     float(kLn2 * log2_of(std::max(left, kMinLight)));

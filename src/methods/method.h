@@ -42,6 +42,9 @@ struct ViewChange {
     bool new_sky = false;    ///< the sky map is another one, the air's among them
     bool new_shine = false;  ///< what shines is another but for the sun's direction: same_shine
     bool new_run = false;    ///< of a film: pictures before this one count no more
+    /// Both are those of a sun that has moved a little through the air: pictures before this one
+    /// may still be shown in part.
+    bool follows_sun = false;
 };
 
 struct RenderAsk {

@@ -362,7 +362,8 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
 
 Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,
                            const LightInput& lit, int batch, Planes& planes) {
-    if (state.picture.alone) return show_nothing_behind(planes);
+    if (state.picture.alone)
+        return show_nothing_behind(*lit.lighting, lit.camera, context.threads, planes);
     PILEUS_TRY(make_ground_shadow(context, view.world.medium, medium_of(view, state),
                                   state.lights.lighting, lit.camera, turn_of(view, state),
                                   state.picture.ground_shadow));

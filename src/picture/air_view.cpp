@@ -138,9 +138,10 @@ Status show_air(const Context& context, const Scene& scene, const Medium& medium
         PILEUS_TRY(dimmed.resize(3 * pixels, "air"));
         for (float& v : dimmed.span()) v = 1;
     }
-    PILEUS_TRY(run_air(context, scene, medium, lighting, camera, environment, planes,
-                       {planes.colour.data(), planes.background.data(),
-                        dimmed.empty() ? nullptr : dimmed.data(), false}));
+    PILEUS_TRY(run_air(
+        context, scene, medium, lighting, camera, environment, planes,
+        {planes.colour.data(), planes.background.data(), dimmed.empty() ? nullptr : dimmed.data(),
+         false, planes.kept.empty() ? nullptr : planes.kept.data()}));
     // Parts of the light tell its noise, to which the air adds none.
     for (std::size_t i = 3 * pixels; i < planes.colour.size(); ++i)
         planes.colour[i] *= dimmed[i % (3 * pixels)];

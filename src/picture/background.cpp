@@ -2,6 +2,7 @@
 // See background.h.
 #include "src/picture/background.h"
 
+#include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/world/camera/view.h"
 #include "src/world/solids/camera_depth.h"
@@ -57,9 +58,11 @@ void add_map(const SkyMapView& map, double (&k)[3][kAroundTerms]) {
     }
 }
 
-/// Light around a surface: the sky, and below it the ground as the sun and the sky light it.
-void set_around(const Lighting& light, SolidRowsParams& k) {
-    double sums[3][kAroundTerms] = {};
+}  // namespace
+
+void light_around(const Lighting& light, double (&sums)[3][kAroundTerms]) {
+    for (auto& sum : sums)
+        for (double& term : sum) term = 0;
     if (light.map.columns > 0) add_map(light.map, sums);
     for (int c = 0; c < 3; ++c) {
         const std::size_t s = std::size_t(c);
@@ -70,6 +73,18 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
             sum[3] = light.ground.present ? 0.5 * light.sky[s] : 0;
         }
         if (light.ground.present) sum[0] += 0.5 * below, sum[3] -= 0.5 * below;
+    }
+}
+
+namespace {
+
+/// Light around a surface: the sky, and below it the ground as the sun and the sky light it.
+void set_around(const Lighting& light, SolidRowsParams& k) {
+    double sums[3][kAroundTerms];
+    light_around(light, sums);
+    for (int c = 0; c < 3; ++c) {
+        const std::size_t s = std::size_t(c);
+        const double(&sum)[kAroundTerms] = sums[c];
         for (int i = 0; i < kAroundTerms; ++i) k.around[c][i] = float(sum[i]);
         k.sun[c] = float(light.sun_irradiance[s] / kPi64);
     }
@@ -81,19 +96,24 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
 
 /// Where the image has something nearer, that hides what was found: black, for its owner draws it.
 /// A picture of another size reads the image where its pixels' corners lie.
-void hide(const CameraDepth& from, const CameraParams& camera, const BackgroundBuffers& b) {
+void hide(const CameraDepth& from, const CameraParams& camera, int threads,
+          const BackgroundBuffers& b) {
     const std::size_t width = std::size_t(camera.width), height = std::size_t(camera.height);
     const std::size_t columns = from.columns;
     const std::size_t rows = from.metres.size() / columns;
-    for (std::size_t i = 0; i < width * height; ++i) {
-        const std::size_t x = i % width * columns / width, y = i / width * rows / height;
-        const float depth = from.metres[y * columns + x];
-        const float other = b.opaque_depth != nullptr ? b.opaque_depth[i] : __builtin_inff();
-        if (!(depth < __builtin_inff()) || depth > other) continue;
-        if (b.opaque_depth != nullptr) b.opaque_depth[i] = depth;
-        for (std::size_t c = 0; c < 3 && b.colour != nullptr; ++c)
-            b.colour[c * width * height + i] = 0;
-    }
+    parallel_for(threads, camera.height, [&](std::int64_t row, int) {
+        const std::size_t y = std::size_t(row);
+        const float* const line = from.metres.data() + y * rows / height * columns;
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t i = y * width + x;
+            const float depth = line[columns == width ? x : x * columns / width];
+            const float other = b.opaque_depth != nullptr ? b.opaque_depth[i] : __builtin_inff();
+            if (!(depth < __builtin_inff()) || depth > other) continue;
+            if (b.opaque_depth != nullptr) b.opaque_depth[i] = depth;
+            for (std::size_t c = 0; c < 3 && b.colour != nullptr; ++c)
+                b.colour[c * width * height + i] = 0;
+        }
+    });
 }
 
 Status show_solid_rows(const Context& context, const SolidRowsParams& k,
@@ -138,12 +158,6 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
     return k;
 }
 
-Status show_nothing_behind(Planes& planes) {
-    for (float& metres : planes.opaque_depth.span()) metres = __builtin_inff();
-    for (float& radiance : planes.background.span()) radiance = 0;
-    return Status::ok();
-}
-
 bool has_meshes(const Lighting& light) { return light.solids != nullptr && !light.solids->empty(); }
 
 namespace {
@@ -153,6 +167,15 @@ bool has_image(const Lighting& light) {
 }
 
 }  // namespace
+
+Status show_nothing_behind(const Lighting& light, const CameraParams& camera, int threads,
+                           Planes& planes) {
+    for (float& metres : planes.opaque_depth.span()) metres = __builtin_inff();
+    for (float& radiance : planes.background.span()) radiance = 0;
+    if (has_image(light) && !planes.opaque_depth.empty())
+        hide(*light.depth, camera, threads, {nullptr, nullptr, planes.opaque_depth.data()});
+    return Status::ok();
+}
 
 bool has_surfaces(const Lighting& light) { return has_meshes(light) || has_image(light); }
 
@@ -168,7 +191,7 @@ Status show_background(const Context& context, const Lighting& light, const Back
         if (b.colour != nullptr) set_around(light, params);
         PILEUS_TRY(show_solid_rows(context, params, b));
     }
-    if (has_image(light)) hide(*light.depth, k.camera, b);
+    if (has_image(light)) hide(*light.depth, k.camera, context.threads, b);
     return Status::ok();
 }
 

@@ -17,6 +17,9 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
 /// irradiance over pi; degrees 0, 1, 2 of the clamped cosine are 1, 2/3, 1/4.
 void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]);
 
+/// Light around a place over the ground, sky and ground, as such harmonics.
+void light_around(const Lighting& light, double (&sums)[3][kAroundTerms]);
+
 /// Whether meshes, or an image of what stands there, may end rays.
 bool has_meshes(const Lighting& light);
 bool has_surfaces(const Lighting& light);
@@ -26,8 +29,10 @@ bool has_surfaces(const Lighting& light);
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b);
 
-/// In place of it where nothing behind the media is wanted: all of the way is free.
-Status show_nothing_behind(Planes& planes);
+/// In place of it where nothing behind the media is wanted: all of the way is free, but for what
+/// the camera's depth image shows.
+Status show_nothing_behind(const Lighting& light, const CameraParams& camera, int threads,
+                           Planes& planes);
 
 /// Channel `shadow` of an image of this camera: of ground, solids and what a depth image shows, the
 /// share of the sun's light that media and solids keep from it; 0 in the sky and without a sun.

@@ -33,8 +33,10 @@ struct Planes {
     Buffer<float> emission;       ///< [3][pixel], of R G B what the media emit
     Buffer<float> error;          ///< [3][pixel], one standard error; empty: from the batches
     Buffer<float> occlusion;      ///< [pixel], share of the sky that the media hide
-    int batches = 0;              ///< parts of the light behind the picture's own colours
-    std::uint64_t clamped = 0;    ///< numbers below 0 that became 0 on the way here
+    Buffer<float> kept;         ///< [3][pixel], share of a host's own pixel that the air before it
+                                ///< leaves, 0: nothing of it is seen; empty: not wanted
+    int batches = 0;            ///< parts of the light behind the picture's own colours
+    std::uint64_t clamped = 0;  ///< numbers below 0 that became 0 on the way here
     /// Takes what may wait until pixels are written, as a caller allows it; null: nothing may.
     LateRows* late = nullptr;
 

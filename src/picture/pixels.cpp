@@ -15,8 +15,10 @@
 namespace pileus {
 namespace {
 
+/// Light and alpha, and what of a pixel that was there before is left.
 struct Rgba {
     float c[4];
+    float left[3];
 };
 
 /// Radiances of one pixel: below 0 and what is no number become 0.
@@ -25,11 +27,30 @@ float sound(float v, std::uint64_t& broken) {
     return v == v ? (v < 0.0f ? 0.0f : v) : 0.0f;
 }
 
-/// The whole picture, or the media's own light.
-Rgba pixel_of(const Planes& p, std::size_t i, bool whole, std::uint64_t& broken) {
+/// What is laid over a host's own pixel: all light before it, and behind it where none of it is
+/// seen.
+Rgba pixel_over(const Planes& p, std::size_t i, std::uint64_t& broken) {
     const std::size_t pixels = p.transmittance.size();
     const float transmittance = p.transmittance[i];
     Rgba out{};
+    float sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = c * pixels + i;
+        out.c[c] = sound(p.colour[at] + transmittance * p.background[at], broken);
+        out.left[c] = transmittance * p.kept[at];
+        sum += out.left[c];
+    }
+    out.c[3] = 1.0f - sum * (1.0f / 3);
+    return out;
+}
+
+/// The whole picture, or the media's own light.
+Rgba pixel_of(const Planes& p, std::size_t i, bool whole, std::uint64_t& broken) {
+    if (!whole && !p.kept.empty()) return pixel_over(p, i, broken);
+    const std::size_t pixels = p.transmittance.size();
+    const float transmittance = p.transmittance[i];
+    Rgba out{};
+    for (float& left : out.left) left = transmittance;
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t at = c * pixels + i;
         float v = !whole && !p.cloud.empty() ? p.cloud[at] : p.colour[at];
@@ -66,11 +87,10 @@ void store_8bit(const Rgba& p, PixelBlend blend, float gain, const SrgbTable* ta
     Rgb<float> shown = shown_of(p, blend, gain);
     float alpha = p.c[3];
     if (blend == PixelBlend::kOver) {
-        const float left = 1.0f - alpha;
-        shown.r += left * table->linear[to[red]];
-        shown.g += left * table->linear[to[1]];
-        shown.b += left * table->linear[to[blue]];
-        alpha += left * (float(to[3]) / 255.0f);
+        shown.r += p.left[0] * table->linear[to[red]];
+        shown.g += p.left[1] * table->linear[to[1]];
+        shown.b += p.left[2] * table->linear[to[blue]];
+        alpha += (1.0f - alpha) * (float(to[3]) / 255.0f);
     }
     to[red] = table->codes(shown.r);
     to[1] = table->codes(shown.g);
@@ -108,11 +128,10 @@ void store_10bit(const Rgba& p, PixelBlend blend, float gain, const DeepCodes& c
     std::uint32_t word;
     if (blend == PixelBlend::kOver) {
         std::memcpy(&word, to, sizeof word);
-        const float left = 1.0f - alpha;
-        shown.r += left * codes.linear[word & 1023u];
-        shown.g += left * codes.linear[word >> 10 & 1023u];
-        shown.b += left * codes.linear[word >> 20 & 1023u];
-        alpha += left * (float(word >> 30) / 3.0f);
+        shown.r += p.left[0] * codes.linear[word & 1023u];
+        shown.g += p.left[1] * codes.linear[word >> 10 & 1023u];
+        shown.b += p.left[2] * codes.linear[word >> 20 & 1023u];
+        alpha += (1.0f - alpha) * (float(word >> 30) / 3.0f);
     }
     word = codes.code(shown.r) | codes.code(shown.g) << 10 | codes.code(shown.b) << 20 |
            std::uint32_t(alpha * 3.0f + 0.5f) << 30;
@@ -129,9 +148,11 @@ void store_row(const Planes& p, std::size_t first, std::size_t width, PixelBlend
         unsigned char* at = row + x * sizeof held;
         if (blend == PixelBlend::kOver) {
             std::memcpy(held, at, sizeof held);
-            const float left = 1.0f - v.c[3];
+            const float rest = 1.0f - v.c[3];
             // What is hidden may be infinite, and no times infinity is no number.
-            for (int c = 0; c < 4 && left > 0.0f; ++c) v.c[c] += left * load(held[c]);
+            for (int c = 0; c < 3; ++c)
+                if (v.left[c] > 0.0f) v.c[c] += v.left[c] * load(held[c]);
+            if (rest > 0.0f) v.c[3] += rest * load(held[3]);
         }
         for (int c = 0; c < 4; ++c) held[c] = store(v.c[c]);
         std::memcpy(at, held, sizeof held);

@@ -135,9 +135,10 @@ struct CloudKindCount {
     std::uint64_t clouds = 0;  ///< of this kind
 };
 
-/// Many clouds, and how the last picture shows them; no kinds: the scene has none.
+/// Many clouds, and how the last picture shows them; no kinds and no layers: the scene has none.
 struct CloudCounts {
-    std::vector<CloudKindCount> kinds;
+    std::vector<CloudKindCount> kinds, layers;
+    std::vector<std::string> notes;         ///< what was assumed of a report of the weather
     std::uint64_t clouds = 0, visible = 0;  ///< in all; of them in the picture
     std::uint64_t marched = 0, shown = 0;   ///< drawn anew; shown by pictures of earlier frames
     std::uint64_t captured = 0, lit = 0;    ///< pictures made anew; kinds in a turn that were lit

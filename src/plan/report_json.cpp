@@ -166,14 +166,18 @@ Json ring_of(const PhotonCounts& photons) {
 }
 
 Json clouds_of(const CloudCounts& clouds) {
-    if (clouds.kinds.empty()) return nullptr;
-    Json kinds = Json::array();
+    if (clouds.kinds.empty() && clouds.layers.empty()) return nullptr;
+    Json kinds = Json::array(), layers = Json::array();
     for (const CloudKindCount& kind : clouds.kinds)
         kinds.push_back({{"name", kind.name},
                          {"scene", kind.scene},
                          {"method", kind.method},
                          {"clouds", kind.clouds}});
+    for (const CloudKindCount& layer : clouds.layers)
+        layers.push_back({{"name", layer.name}, {"scene", layer.scene}, {"method", layer.method}});
     return {{"kinds", kinds},
+            {"layers", layers},
+            {"weather", clouds.notes},
             {"clouds", clouds.clouds},
             {"visible", clouds.visible},
             {"marched", clouds.marched},

@@ -13,11 +13,30 @@
 namespace pileus {
 
 constexpr std::size_t kMaxCloudKinds = 64, kMaxScatters = 64, kMaxClouds = 1000;
+constexpr std::size_t kMaxCloudLayers = 8;
 
 struct CloudKindSettings {
     std::string name;
     std::string scene;              ///< its file, relative to the scene file
     std::vector<std::string> sets;  ///< "key=value", put into it
+    std::string text;               ///< not empty: the scene itself, in place of a file
+};
+
+/// A sheet of clouds over all of the sky: a scene with media that have a place of their own.
+struct CloudLayerSettings {
+    std::string scene;              ///< its file, relative to the scene file
+    std::vector<std::string> sets;  ///< "key=value", put into it
+    std::string text;               ///< not empty: the scene itself, in place of a file
+};
+
+/// A report of the weather, of which clouds, haze and rain are made. docs/metar.md
+struct ReportSettings {
+    std::string metar;         ///< METAR or SPECI; empty: none
+    std::int64_t seed = 0;     ///< another one, other clouds of the same report
+    double elevation_m = 0;    ///< of the station: heights of a report count from it
+    bool report_time = false;  ///< the sun by the time of the report: there is a date, and no time
+
+    bool present() const { return !metar.empty(); }
 };
 
 struct CloudPlaceSettings {
@@ -38,6 +57,7 @@ struct CloudScatter {
     std::array<double, 2> base_m{};         ///< least and most height of a box's low side
     std::array<double, 2> scale{1.0, 1.0};  ///< least and most
     int yaw_steps = 4;                      ///< turns by so many equal steps
+    bool fewer = false;                     ///< where there is no room for all: as many as fit
 };
 
 /// What may be less exact, and what it may cost.
@@ -57,10 +77,12 @@ struct CloudsSettings {
     std::vector<CloudKindSettings> kinds;
     std::vector<CloudPlaceSettings> places;
     std::vector<CloudScatter> scatters;
+    std::vector<CloudLayerSettings> layers;
+    ReportSettings weather;
     CloudDetail detail;
 
     /// Whether the scene is a sky with clouds.
-    bool present() const { return !kinds.empty(); }
+    bool present() const { return !kinds.empty() || !layers.empty() || weather.present(); }
 };
 
 }  // namespace pileus

@@ -12,7 +12,7 @@ Status refuse_clouds(const Scene& scene) {
     if (!scene.clouds.present()) return Status::ok();
     return at_key(scene, "clouds.kind",
                   Status::bad_input("many clouds are drawn by pileus render alone, allowed: that, "
-                                    "or pileus_clouds_create over a scene without [clouds]"));
+                                    "or pileus_sky_create"));
 }
 
 Status make_context(const Scene& scene, const RenderOptions& options, Context& context,

@@ -172,9 +172,13 @@ Status Session::aim() {
     const bool new_shine = !same_shine(before, scenery_.lighting);
     Method& method = *made_.method;
     const std::uint32_t prepared = method.progress().prepared;
-    PILEUS_TRY(method.set_view(context_, view(), {changed_.anew, new_shine}));
+    ViewChange change;
+    change.new_sky = changed_.anew || changed_.air_moved;
+    change.new_shine = new_shine;
+    change.follows_sun = changed_.air_moved && !changed_.anew;
+    PILEUS_TRY(method.set_view(context_, view(), change));
     PILEUS_TRY(check_sealed());
-    changed_.stale = changed_.anew = false;
+    changed_.stale = changed_.anew = changed_.air_moved = false;
     stats_.prepared = method.progress().prepared;
     if (stats_.prepared != prepared) PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
     return Status::ok();

@@ -122,8 +122,17 @@ public:
     /// `map`: another one; null: none, or with `keep` the one that there is, as it was scaled and
     /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
+    /// The same of a sun that has moved by so little, with its sky or without, that pictures before
+    /// may still be shown in part.
+    Status follow_sun(const Sun& sun);
+    Status follow_sky(const Sky& sky, const Image* map);
     bool has_sky_map() const { return scenery_.environment.sky_map.present(); }
     Status set_ground(const Ground& ground);
+    /// So many hours after the scene's date and time, as it was opened: sun, moon and stars. `sun`:
+    /// as the scene's text has it. kBadInput: a scene without a date.
+    Status set_hours(double hours, const Sun& sun);
+    /// Of the scene's air, whose tables are made anew. kBadInput: out of range, or no air.
+    Status set_turbidity(double turbidity);
     /// In place of all that there were: point, spot and parallel lights, with `held` numbers.
     Status set_lights(const std::vector<LightSettings>& lights);
     Status set_placement(const Double3& offset_m, double yaw_deg);
@@ -203,7 +212,8 @@ private:
     /// What a host has changed since the light was made.
     struct Changes {
         bool stale = true, anew = false;
-        bool air_old = false;  ///< the air's sky is another sun's or ground's
+        bool air_old = false;    ///< the air's sky is another sun's or ground's
+        bool air_moved = false;  ///< it is that of a sun that has moved a little
     };
     /// Nothing may be laid out anew: docs/flight.md
     struct Seal {

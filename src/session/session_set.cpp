@@ -2,6 +2,8 @@
 // What a host changes in a live session: camera, lights, depths, the place of the media.
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
+#include <glm/geometric.hpp>
+
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/methods/support.h"
@@ -33,6 +35,25 @@ Status check_frustum(const Camera& camera, bool billboards) {
             "camera.projection: off-centre, allowed: a symmetric one with display = "
             "\"billboards\"");
     return Status::ok();
+}
+
+/// Whether light of one sun may be shown beside that of the other for some pictures.
+bool is_close(const Sun& a, const Sun& b) {
+    constexpr double kCloseDeg = 2;
+    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
+    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
+    // |a - b| = 2 sin(angle / 2), whose halves are small.
+    return a.present == b.present && glm::length(from - to) < 2 * sincos_deg(0.5 * kCloseDeg).sine;
+}
+
+/// The same of a sun as bright, but for its distance on a date.
+bool is_near(const Sun& a, const Sun& b) {
+    constexpr float kShare = 0.01f;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float off = a.irradiance[c] - b.irradiance[c];
+        if ((off < 0 ? -off : off) > kShare * a.irradiance[c]) return false;
+    }
+    return is_close(a, b);
 }
 
 // Each returns null only where check_scene would find nothing, if the scene itself is sound, and
@@ -120,9 +141,13 @@ Status Session::set_sun(const Sun& given) {
     if (seal_.on && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = out_of_range(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
+    const bool anew = changed_.anew || !is_near(host_.sun, sun);
     host_.sun = sun;
     changed_.stale = true;
-    return relight_air();
+    PILEUS_TRY(relight_air());
+    changed_.air_moved = changed_.air_moved || (changed_.anew && !anew);
+    changed_.anew = anew && changed_.anew;
+    return Status::ok();
 }
 
 /// The sky follows the sun and the ground.
@@ -164,6 +189,22 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     }
     host_.sky = scene_.sky = next;
     changed_.stale = true;
+    return Status::ok();
+}
+
+Status Session::follow_sun(const Sun& sun) {
+    const bool anew = changed_.anew || !is_close(host_.sun, sun);
+    PILEUS_TRY(set_sun(sun));
+    changed_.air_moved = true;
+    changed_.anew = anew;
+    return Status::ok();
+}
+
+Status Session::follow_sky(const Sky& sky, const Image* map) {
+    const bool anew = changed_.anew;
+    PILEUS_TRY(set_sky(sky, map, false));
+    changed_.air_moved = true;
+    changed_.anew = anew;
     return Status::ok();
 }
 

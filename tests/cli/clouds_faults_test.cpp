@@ -23,7 +23,23 @@ TEST_CASE("clouds: keys that are wrong") {
     const Row rows[] = {
         {kCamera + "[clouds.detail]\noff = true\n",
          "s.toml:4:1: clouds.kind: missing, nothing, allowed: kinds of clouds, each headed "
-         "[[clouds.kind]]"},
+         "[[clouds.kind]], or layers, [[clouds.layer]]"},
+        {kCamera + "[[clouds.layer]]\nset = []\n",
+         "s.toml:4:1: clouds.layer.0.scene: missing, nothing, allowed: text"},
+        {kCamera + "[[clouds.layer]]\nscene = \"a.toml\"\nkind = \"a\"\n",
+         "s.toml:6:1: clouds.layer.0: unknown key, \"kind\", allowed: scene, set"},
+        {kCamera + "[weather]\nmetar = \"EGLL 271020Z 24015KT CAVOK\"\n",
+         "s.toml:5:9: atmosphere: missing, nothing, allowed with weather.metar: the table "
+         "[atmosphere]"},
+        {kCamera + "[atmosphere]\n[sun]\n[weather]\nmetar = \"EGLL 271020Z 99915KT CAVOK\"\n",
+         "s.toml:7:9: weather.metar: ..."},
+        {kCamera +
+             "[atmosphere]\nturbidity = 3\n[sun]\n[weather]\nmetar = \"EGLL 271020Z CAVOK\"\n",
+         "s.toml:5:1: atmosphere.turbidity: conflicts with weather.metar, which has the "
+         "visibility, "
+         "3, allowed: left out"},
+        {kCamera + "[weather]\nseed = 3\n",
+         "s.toml:5:8: weather.seed: without a report, 3, allowed: left out, or weather.metar"},
         {kCamera + "[[clouds.kind]]\nname = \"a\"\n",
          "s.toml:4:1: clouds.kind.0.scene: missing, nothing, allowed: text"},
         {clouds("sets = []\n"),

@@ -59,6 +59,7 @@ std::vector<std::string> candidates(const KeyRow& row) {
     if (row.kind() == KeyKind::kDensity) return {"\"uniform:sphere\""};
     if (row.kind() == KeyKind::kRows && row.list->rising == nullptr)
         return {"[{name=\"a\",scene=\"b.toml\",set=[\"seed=1\"]}]",
+                "[{scene=\"b.toml\",set=[\"seed=1\"]}]",
                 "[{kind=\"a\",offset_m=[1,2,3],yaw_deg=4,scale=5}]",
                 "[{kinds=[\"a\"],count=2,base_m=[3,4],center_m=[5,6],seed=7}]"};
     if (row.kind() == KeyKind::kRows && row.list->rising == std::string("frame"))

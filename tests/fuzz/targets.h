@@ -31,6 +31,7 @@
     ROW(render)                  \
     ROW(scene)                   \
     ROW(sensors)                 \
+    ROW(sky_calls)               \
     ROW(study)                   \
     ROW(vdb)                     \
     ROW(vol)

@@ -8,12 +8,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,6 +47,7 @@ struct Freed {
     void operator()(pileus_scene* p) const { pileus_scene_free(p); }
     void operator()(pileus_world* p) const { pileus_world_free(p); }
     void operator()(pileus_session* p) const { pileus_session_free(p); }
+    void operator()(pileus_sky* p) const { pileus_sky_free(p); }
 };
 
 /// What Python lends to a handle: threads, a log, and an end by Ctrl-C. It stays where it is.
@@ -120,10 +123,34 @@ struct ArrayRows {
 };
 
 /// Of an array [height][width] or, with channels, [height][width][channels]. BadInput: another
-/// shape or kind of numbers, pixels that do not lie close, rows that overlap, read only.
+/// shape or kind of numbers, pixels that do not lie close, rows that overlap, read only; `whose`
+/// says in it where the shape comes from.
 ArrayRows rows_of(const char* name, const py::array& array, const py::dtype& dtype,
-                  std::uint32_t width, std::uint32_t height, std::uint32_t channels, bool writes);
+                  std::uint32_t width, std::uint32_t height, std::uint32_t channels, bool writes,
+                  const char* whose = "as the session's camera");
+
+using Three = std::array<double, 3>;
+using Size = std::array<std::uint32_t, 2>;
+
+/// Pixels of a session's camera.
+Size size_of(const Session& session);
+
+/// What of a frame is an array of the caller, and how its numbers are to be read.
+struct FrameArrays {
+    std::optional<py::array> colour;
+    std::uint32_t format = 0, blend = 0;
+    float exposure = 0;
+    std::optional<py::array> depth;
+    std::uint32_t depth_kind = 0;
+    bool bottom_up = false;
+};
+pileus_frame frame_of(const FrameArrays& arrays, const Size& size);
+
+/// Opaque things of the caller, an array [height][width]; none: nothing solid.
+pileus_depth_image depth_of(const std::optional<py::array>& values, std::uint32_t kind,
+                            bool bottom_up, const Size& size, const char* name = "depth");
 
 void add_session(py::module_& module);
+void add_sky(py::module_& module);
 
 }  // namespace pileus_python

@@ -173,7 +173,8 @@ std::int32_t Host::stop(void* user) {
 void Host::log(void* user, const char* line) { static_cast<Host*>(user)->lines_.push_back(line); }
 
 ArrayRows rows_of(const char* name, const py::array& array, const py::dtype& dtype,
-                  std::uint32_t width, std::uint32_t height, std::uint32_t channels, bool writes) {
+                  std::uint32_t width, std::uint32_t height, std::uint32_t channels, bool writes,
+                  const char* whose) {
     const std::string who(name);
     const py::ssize_t wanted[3] = {py::ssize_t(height), py::ssize_t(width), py::ssize_t(channels)};
     const py::ssize_t axes = channels > 0 ? 3 : 2;
@@ -182,8 +183,8 @@ ArrayRows rows_of(const char* name, const py::array& array, const py::dtype& dty
     std::string shape = std::to_string(height) + ", " + std::to_string(width);
     if (channels > 0) shape += ", " + std::to_string(channels);
     if (!fits)
-        bad_input(who + ": shape " + text_of(array.attr("shape")) + ", allowed: (" + shape +
-                  "), as the session's camera");
+        bad_input(who + ": shape " + text_of(array.attr("shape")) + ", allowed: (" + shape + "), " +
+                  whose);
     if (!array.dtype().equal(dtype))
         bad_input(who + ": " + text_of(array.dtype()) + ", allowed: " + text_of(dtype));
     if (writes && !array.writeable()) bad_input(who + ": read only, allowed: writeable");
@@ -245,4 +246,5 @@ PYBIND11_MODULE(_core, module) {
                "Turns `position` about the vertical axis through `target`, counter-clockwise seen "
                "from above, by the bits of animation.camera_orbit_deg.");
     add_session(module);
+    add_sky(module);
 }

@@ -6,8 +6,6 @@
 namespace pileus_python {
 namespace {
 
-using Three = std::array<double, 3>;
-using Size = std::array<std::uint32_t, 2>;
 using Map = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 template <class To>
@@ -36,14 +34,6 @@ void set(Session& session, pileus_code (*setter)(pileus_session*, const Given*, 
          const Given& given) {
     const Turn turn(session);
     call([&](pileus_error* error) { return setter(session.session.get(), &given, error); });
-}
-
-Size size_of(const Session& session) {
-    Size size{};
-    call([&](pileus_error* error) {
-        return pileus_session_size(session.session.get(), &size[0], &size[1], error);
-    });
-    return size;
 }
 
 Size size(Session& session) {
@@ -156,16 +146,7 @@ void set_media(Session& session, const Scene& scene) {
 void set_depth(Session& session, const std::optional<py::array>& values, std::uint32_t kind,
                bool bottom_up) {
     const Turn turn(session);
-    auto depth = cleared<pileus_depth_image>();
-    depth.kind = kind;
-    if (values) {
-        const Size size = size_of(session);
-        const ArrayRows rows =
-            rows_of("depth", *values, py::dtype::of<float>(), size[0], size[1], 0, false);
-        depth.values = static_cast<const float*>(rows.first);
-        depth.stride = rows.stride;
-        depth.bottom_up = rows.flipped != bottom_up ? 1 : 0;
-    }
+    const pileus_depth_image depth = depth_of(values, kind, bottom_up, size_of(session));
     call([&](pileus_error* error) {
         return pileus_session_set_depth(session.session.get(), &depth, error);
     });
@@ -211,29 +192,8 @@ std::optional<std::uint64_t> render(Session& session, const std::optional<py::ar
                                     bool wants_hash, bool bottom_up, const NamedArrays& named) {
     const Turn turn(session);
     const Size size = size_of(session);
-    auto frame = cleared<pileus_frame>();
-    frame.format = format;
-    frame.blend = blend;
-    frame.exposure_stops = exposure;
-    frame.depth_kind = depth_kind;
-    frame.bottom_up = bottom_up ? 1 : 0;
-    if (colour) {
-        const ArrayRows rows =
-            rows_of("colour", *colour, dtype_of(format), size[0], size[1], 4, true);
-        frame.colour = rows.first;
-        frame.colour_stride = rows.stride;
-        frame.bottom_up = rows.flipped != bottom_up ? 1 : 0;
-    }
-    if (depth) {
-        const ArrayRows rows =
-            rows_of("depth", *depth, py::dtype::of<float>(), size[0], size[1], 0, true);
-        frame.depth = static_cast<float*>(rows.first);
-        frame.depth_stride = rows.stride;
-        const std::int32_t up = rows.flipped != bottom_up ? 1 : 0;
-        if (colour && up != frame.bottom_up)
-            bad_input("depth: rows run the other way than those of colour, allowed: the same way");
-        frame.bottom_up = up;
-    }
+    pileus_frame frame =
+        frame_of({colour, format, blend, exposure, depth, depth_kind, bottom_up}, size);
     std::vector<pileus_layer> layers;
     for (const auto& layer : named) {
         const ArrayRows rows =
@@ -282,6 +242,54 @@ py::bytes report(Session& session) {
 }
 
 }  // namespace
+
+Size size_of(const Session& session) {
+    Size size{};
+    call([&](pileus_error* error) {
+        return pileus_session_size(session.session.get(), &size[0], &size[1], error);
+    });
+    return size;
+}
+
+pileus_frame frame_of(const FrameArrays& arrays, const Size& size) {
+    auto frame = cleared<pileus_frame>();
+    frame.format = arrays.format;
+    frame.blend = arrays.blend;
+    frame.exposure_stops = arrays.exposure;
+    frame.depth_kind = arrays.depth_kind;
+    frame.bottom_up = arrays.bottom_up ? 1 : 0;
+    if (arrays.colour) {
+        const ArrayRows rows =
+            rows_of("colour", *arrays.colour, dtype_of(arrays.format), size[0], size[1], 4, true);
+        frame.colour = rows.first;
+        frame.colour_stride = rows.stride;
+        frame.bottom_up = rows.flipped != arrays.bottom_up ? 1 : 0;
+    }
+    if (arrays.depth) {
+        const ArrayRows rows =
+            rows_of("depth", *arrays.depth, py::dtype::of<float>(), size[0], size[1], 0, true);
+        frame.depth = static_cast<float*>(rows.first);
+        frame.depth_stride = rows.stride;
+        const std::int32_t up = rows.flipped != arrays.bottom_up ? 1 : 0;
+        if (arrays.colour && up != frame.bottom_up)
+            bad_input("depth: rows run the other way than those of colour, allowed: the same way");
+        frame.bottom_up = up;
+    }
+    return frame;
+}
+
+pileus_depth_image depth_of(const std::optional<py::array>& values, std::uint32_t kind,
+                            bool bottom_up, const Size& size, const char* name) {
+    auto depth = cleared<pileus_depth_image>();
+    depth.kind = kind;
+    if (!values) return depth;
+    const ArrayRows rows =
+        rows_of(name, *values, py::dtype::of<float>(), size[0], size[1], 0, false);
+    depth.values = static_cast<const float*>(rows.first);
+    depth.stride = rows.stride;
+    depth.bottom_up = rows.flipped != bottom_up ? 1 : 0;
+    return depth;
+}
 
 void add_session(py::module_& module) {
     py::class_<Session>(module, "Session")

@@ -157,7 +157,8 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
     if (!ask.media_only)
         PILEUS_TRY(mirror_sky(context, view, march_input(view, state), view.lighting, state));
     if (ask.media_only)
-        PILEUS_TRY(show_nothing_behind(picture.planes));
+        PILEUS_TRY(
+            show_nothing_behind(view.lighting, view.camera, context.threads, picture.planes));
     else
         PILEUS_TRY(march_background(context, view, view.lighting, state, picture.planes));
     RaymarchInput in = march_input(view, state);

@@ -79,7 +79,7 @@ Status MarchMethod::set_view(const Context&, const FrameView& view, const ViewCh
     MarchPicture& picture = state_.picture;
     if (change.new_sky || change.new_shine || change.new_run) {
         state_.light.sky.made = false;
-        picture.upsample.ready = false;
+        if (!change.follows_sun) picture.upsample.ready = false;
     }
     if (change.new_run) {
         state_.light.sun.slices.held.clear();

@@ -64,12 +64,6 @@ void check_atmosphere(SceneCheck& check) {
     if (check.written)
         for (const char* key : {"sky.radiance", "sky.map"})
             refuse(key, "conflicts with [atmosphere]", ", allowed: left out");
-    if (scene.clouds.present()) {
-        if (scene.atmosphere.moon)
-            refuse("atmosphere.moon", "not with [clouds]", ", allowed: false");
-        if (scene.atmosphere.stars)
-            refuse("atmosphere.stars", "not with [clouds]", ", allowed: false");
-    }
     if (scene.camera.orthographic && !scene.camera.flux)
         refuse("camera.projection", "looks from no single place in the air",
                ", allowed: perspective, flux");

@@ -7,6 +7,7 @@
 #include "src/base/number_text.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/metar/metar.h"
 
 namespace pileus {
 namespace {
@@ -54,6 +55,15 @@ struct CloudCheck {
             // What is wrong with the file shows when it is read: its place is kept for that.
             const std::string key = path + "scene";
             check.found[key] = {&file, check_path(check, file, key.c_str(), clouds.kinds[i].scene)};
+        }
+    }
+
+    void layers(const Node& list) const {
+        for (std::size_t i = 0; i < clouds.layers.size(); ++i) {
+            const std::string key = "clouds.layer." + std::to_string(i) + ".scene";
+            const Node& file = *list.children[i].find("scene");
+            check.found[key] = {&file,
+                                check_path(check, file, key.c_str(), clouds.layers[i].scene)};
         }
     }
 
@@ -131,21 +141,63 @@ struct CloudCheck {
     }
 };
 
+/// A report is read where the scene is opened; here is what goes with it.
+void check_weather(SceneCheck& check) {
+    ReportSettings& weather = check.scene.clouds.weather;
+    const Node* metar = check.valid_key("weather.metar");
+    if (metar == nullptr) {
+        for (const char* key : {"weather.seed", "weather.elevation_m"})
+            if (const Node* node = check.key(key))
+                check.faults.add(node->at, key,
+                                 "without a report, " + value_text(*node) +
+                                     ", allowed: left out, or weather.metar");
+        return;
+    }
+    Metar report;
+    const Status read = read_metar(weather.metar, report);
+    if (!read) {
+        // The key says what it is of.
+        const std::string head = "metar: ";
+        const bool named = read.message.compare(0, head.size(), head) == 0;
+        check.faults.add(metar->at, "weather.metar",
+                         named ? read.message.substr(head.size()) : read.message);
+    }
+    const AtmosphereSettings& air = check.scene.atmosphere;
+    if (!air.present)
+        check.faults.add(metar->at, "atmosphere",
+                         "missing, nothing, allowed with weather.metar: the table [atmosphere]");
+    if (!check.written) return;
+    conflict(check, "atmosphere.turbidity", "weather.metar, which has the visibility");
+    weather.report_time = !air.date.empty() && check.key("atmosphere.time") == nullptr;
+}
+
 }  // namespace
 
 void check_clouds(SceneCheck& check) {
     const CloudCheck own{check};
     const Node* kinds = check.valid_key("clouds.kind");
+    const Node* layers = check.valid_key("clouds.layer");
+    const Node* metar = check.valid_key("weather.metar");
+    check_weather(check);
     if (kinds == nullptr) {
+        for (const char* list : {"clouds.place", "clouds.scatter"})
+            if (const Node* node = check.valid_key(list))
+                check.faults.add(node->at, "clouds.kind",
+                                 std::string("missing, nothing, allowed with ") + list +
+                                     ": kinds of clouds, each headed [[clouds.kind]]");
         const Node* table = check.key("clouds");
-        if (table != nullptr && table->is_table() && table->find("kind") == nullptr)
+        if (table != nullptr && table->is_table() && table->find("kind") == nullptr &&
+            check.key("clouds.layer") == nullptr && check.key("weather.metar") == nullptr)
             check.faults.add(table->at, "clouds.kind",
                              "missing, nothing, allowed: kinds of clouds, each headed "
-                             "[[clouds.kind]]");
-        return;
+                             "[[clouds.kind]], or layers, [[clouds.layer]]");
     }
-    own.kinds(*kinds);
-    own.surroundings(*kinds);
+    const Node* first = kinds != nullptr ? kinds : layers != nullptr ? layers : metar;
+    if (first == nullptr) return;
+    if (kinds != nullptr) own.kinds(*kinds);
+    if (layers != nullptr) own.layers(*layers);
+    own.surroundings(*first);
+    if (kinds == nullptr) return;
     const Node* places = check.valid_key("clouds.place");
     if (places != nullptr) own.places(*places);
     const Node* scatters = check.valid_key("clouds.scatter");

@@ -10,6 +10,10 @@ namespace {
 template <auto... Members>
 constexpr KeyField detail = field<&Scene::clouds, &CloudsSettings::detail, Members...>;
 
+template <auto Member>
+constexpr KeyField weather = field<&Scene::clouds, &CloudsSettings::weather, Member>;
+using Weather = ReportSettings;
+
 template <class Value>
 void take_member(const Node& table, const char* key, Value& value) {
     if (const Node* node = table.find(key)) take(*node, value);
@@ -25,6 +29,16 @@ void take_row(const Node& node, CloudKindSettings& kind) {
     take_member(node, "name", kind.name);
     take_member(node, "scene", kind.scene);
     take_member(node, "set", kind.sets);
+}
+
+Node node_of_row(const CloudLayerSettings& layer) {
+    Node node;
+    node.children = {named("scene", node_of(layer.scene)), named("set", node_of(layer.sets))};
+    return node;
+}
+void take_row(const Node& node, CloudLayerSettings& layer) {
+    take_member(node, "scene", layer.scene);
+    take_member(node, "set", layer.sets);
 }
 
 Node node_of_row(const CloudPlaceSettings& place) {
@@ -91,6 +105,10 @@ constexpr KeyRow kKindRows[] = {
     {"scene", KeyKind::kText, any(), "", "", kRequired},
     {"set", KeyKind::kTexts, any(), "", ""},
 };
+constexpr KeyRow kLayerRows[] = {
+    {"scene", KeyKind::kText, any(), "", "", kRequired},
+    {"set", KeyKind::kTexts, any(), "", ""},
+};
 constexpr KeyRow kPlaceRows[] = {
     {"kind", KeyKind::kText, any(), "", "", kRequired},
     {"offset_m", KeyKind::kNumber3, ranged(&CloudPlaceSettings::offset_m), "m", "", kRequired},
@@ -114,6 +132,7 @@ Span<const KeyRow> keys_in() {
     return {Rows, sizeof Rows / sizeof Rows[0]};
 }
 constexpr RowList kKinds{keys_in<kKindRows>, nullptr, 1, kMaxCloudKinds};
+constexpr RowList kLayers{keys_in<kLayerRows>, nullptr, 1, kMaxCloudLayers};
 constexpr RowList kPlaces{keys_in<kPlaceRows>, nullptr, 1, kMaxClouds};
 constexpr RowList kScatters{keys_in<kScatterRows>, nullptr, 1, kMaxScatters};
 
@@ -129,6 +148,10 @@ constexpr KeyRow kRows[] = {
      "many clouds, `[[clouds.scatter]]`, by random numbers, none over another; docs/clouds.md has "
      "ranges and defaults",
      kNoNote, &kScatters},
+    {"clouds.layer", rows<&CloudsSettings::layers>, any(), "",
+     "sheets of clouds, `[[clouds.layer]]`: the file of a scene with media, which stay where they "
+     "are in it and may have no end, and what `set` changes in it; docs/clouds.md",
+     kNoNote, &kLayers},
     {"clouds.detail.off", kOff, any(), "", "march every cloud whole in every picture"},
     {"clouds.detail.error_px", detail<&CloudDetail::error_px>, ranged(&CloudDetail::error_px),
      "pixel", "that parts of a far cloud may be off"},
@@ -145,6 +168,14 @@ constexpr KeyRow kRows[] = {
      "of far clouds, that one picture may draw anew"},
     {"clouds.detail.sun_deg", detail<&CloudDetail::sun_deg>, ranged(&CloudDetail::sun_deg), "deg",
      "that the sun may move before clouds are lit anew"},
+    {"weather.metar", weather<&Weather::metar>, any(), "",
+     "a report of the weather, METAR or SPECI, of which clouds, haze and rain are made; needs "
+     "[atmosphere]; docs/metar.md",
+     kNoNote},
+    {"weather.seed", weather<&Weather::seed>, from_to(0, 0x1p32 - 1), "",
+     "other clouds of the same report"},
+    {"weather.elevation_m", weather<&Weather::elevation_m>, from_to(-500, 6000), "m",
+     "of the station, above which a report counts heights"},
 };
 
 }  // namespace

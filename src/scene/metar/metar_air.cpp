@@ -83,7 +83,6 @@ void add_patches(MetarDraft& draft, const std::string& descriptor) {
     MetarMedium fog;
     fog.name = "fog";
     fog.type = "fog";
-    fog.on_ground = true;
     fog.base_m = draft.settings.field_elevation_m;
     fog.top_m = fog.base_m + (shallow ? 2 : 30);
     // Shallow fog is below 2 m (Annex 3); 30 m, and shares of the ground: chosen.
@@ -100,7 +99,6 @@ void add_fall(MetarDraft& draft, const Fall& fall, double extinction_per_m, doub
     MetarMedium medium;
     medium.name = fall.kind->name;
     medium.type = "custom";
-    medium.on_ground = true;
     medium.base_m = draft.settings.field_elevation_m;
     medium.top_m = medium.base_m + top_m;
     medium.phase = "{ type = \"henyey-greenstein\", g = " + number_text(fall.kind->g, 4) + " }";
@@ -142,7 +140,6 @@ void add_dimming(MetarDraft& draft, const MetarDimming& row, double extinction_p
     MetarMedium medium;
     medium.name = row.name;
     medium.type = "fog";
-    medium.on_ground = true;
     medium.base_m = draft.settings.field_elevation_m;
     medium.top_m = medium.base_m + thickness_m;
     // Mean density 1/2, as precipitation has it.

@@ -16,7 +16,6 @@ struct MetarMedium {
     std::string albedo;           ///< "": 1
     std::string phase;            ///< "": the type's
     std::string shape;            ///< further keys of the table sky
-    bool on_ground = false;       ///< begins at the ground, over level country
 };
 
 /// What all parts read and add to.

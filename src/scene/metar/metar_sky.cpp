@@ -22,12 +22,26 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-std::string camera_text(double height_m) {
-    return "[camera]\nposition_m = [0, 0, " + number(height_m) + "]\ntarget_m = [0, 1000, " +
-           number(height_m) + "]\n\n";
+/// A scene must have a camera.
+std::string camera_text(double ground_m) {
+    const std::string height = number(ground_m + 100);
+    return "[camera]\nposition_m = [0, 0, " + height + "]\ntarget_m = [0, 1000, " + height +
+           "]\n\n";
 }
 
-std::string method_text() {
+/// Where the box of a low sheet ends.
+std::string ground_text(double ground_m) {
+    return "[ground]\naltitude_m = " + number(ground_m) + "\n\n";
+}
+
+/// Sunlight on nodes, which sheets have where its steps are given: docs/skies.md.
+std::string method_text(int steps) {
+    return "\n[method]\nname = \"raymarch\"\n\n[raymarch]\nsteps = " + std::to_string(steps) +
+           "\ntemporal = " + std::to_string(kMetarTemporal) +
+           "\nlight_steps = 12\nlight_first_step_m = 30\nlight_growth = 1.4\nlight_refresh = 8\n";
+}
+
+std::string tower_method_text() {
     return "\n[method]\nname = \"raymarch\"\n\n[raymarch]\nsteps = " + std::to_string(kMetarSteps) +
            "\ntemporal = " + std::to_string(kMetarTemporal) + "\n";
 }
@@ -56,15 +70,9 @@ void MetarDraft::add(const MetarMedium& medium) {
     double wind[2];
     const double height_m = medium.base_m - settings.field_elevation_m;
     metar_wind_at(report, settings.southern, height_m, wind);
-    std::string text = camera_text(settings.field_elevation_m + 100);
+    std::string text = camera_text(settings.field_elevation_m);
+    text += ground_text(settings.field_elevation_m);
     text += "[[medium]]\ndensity = \"procedural:sky\"\n";
-    // A sheet without bounds has a box 50 m lower than its base, which may not be below the ground.
-    const bool bounded = medium.on_ground || height_m < kMetarSpare_m;
-    if (bounded) {
-        const std::string reach = number(settings.scale_radius_km * 1000);
-        text += "bounds_m = [[-" + reach + ", -" + reach + ", " + number(medium.base_m) + "], [" +
-                reach + ", " + reach + ", " + number(medium.top_m) + "]]\n";
-    }
     if (medium.extinction_per_m > 0)
         text += "extinction_per_m = " + number(medium.extinction_per_m) + "\n";
     if (!medium.albedo.empty()) text += "albedo = " + medium.albedo + "\n";
@@ -72,11 +80,10 @@ void MetarDraft::add(const MetarMedium& medium) {
     text += "sky = { type = \"" + medium.type + "\", base_m = " + number(medium.base_m) +
             ", top_m = " + number(medium.top_m);
     if (medium.coverage >= 0) text += ", coverage = " + number(medium.coverage);
-    if (!bounded) text += ", planet_radius_m = 6371000";
-    text += ", wind_m_per_s = [" + number(wind[0]) + ", " + number(wind[1]) +
-            "], seed = " + std::to_string(next_seed());
+    text += ", planet_radius_m = 6371000, wind_m_per_s = [" + number(wind[0]) + ", " +
+            number(wind[1]) + "], seed = " + std::to_string(next_seed());
     if (!medium.shape.empty()) text += ", " + medium.shape;
-    text += " }\n" + method_text();
+    text += " }\n" + method_text(height_m > kMetarThin_m ? kMetarThinSteps : kMetarSteps);
     sky.layers.push_back({medium.name + "_" + std::to_string(sky.layers.size() + 1), text});
 }
 
@@ -84,12 +91,12 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
     bool there = false;
     for (const MetarScene& kind : sky.kinds) there = there || kind.name == towers.name;
     if (!there)
-        sky.kinds.push_back({towers.name, camera_text(settings.field_elevation_m + 100) +
+        sky.kinds.push_back({towers.name, camera_text(settings.field_elevation_m) +
                                               "[[medium]]\ndensity = \"procedural:cloud\"\n"
                                               "cloud = { type = \"" +
                                               towers.type +
                                               "\", seed = " + std::to_string(next_seed()) + " }\n" +
-                                              method_text()});
+                                              tower_method_text()});
     MetarScatter row;
     row.kind = towers.name;
     row.count = count > 0 ? count : few ? towers.few : towers.scattered;

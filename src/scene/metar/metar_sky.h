@@ -15,7 +15,7 @@ namespace pileus {
 struct MetarSkySettings {
     std::int64_t seed = 0;         ///< another one, other clouds of the same report
     double field_elevation_m = 0;  ///< of the aerodrome: heights of the report count from there
-    double scale_radius_km = 40;   ///< how far towers are strewn, and how far fog and rain reach
+    double scale_radius_km = 40;   ///< how far towers are strewn
     bool southern = false;         ///< south of the equator, where winds back with height
 };
 

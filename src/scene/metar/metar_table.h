@@ -14,8 +14,6 @@ constexpr double kMetarStratus_m = 400;
 constexpr double kMetarNimbostratus_m = 3000;
 // A reported height of 000 is below 30 m (Annex 3): its middle.
 constexpr double kMetarLeastBase_m = 15;
-// Sheets that are lower have bounds, and lie level: see MetarDraft::add.
-constexpr double kMetarSpare_m = 60;
 // Where no height is reported: chosen.
 constexpr double kMetarUnknownBase_m = 900;
 // A sheet ends so far below the next one, and is at least so thick: chosen.
@@ -158,5 +156,8 @@ constexpr double kMetarFallTop_m = 1500;  // where no cloud is reported: chosen
 
 // Steps of a ray, and one pixel of so many by so many a frame: docs/realtime.md.
 constexpr int kMetarSteps = 96, kMetarTemporal = 4;
+// Of sheets of ice, which are thin and even.
+constexpr double kMetarThin_m = 5000;
+constexpr int kMetarThinSteps = 32;
 
 }  // namespace pileus

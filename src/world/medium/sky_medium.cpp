@@ -22,6 +22,10 @@ MediumSettings placed(const Scene& scene) {
         high[a] = low[a] + 2 * kReach;
     }
     low[2] = settings.sky.base_m - kSpare, high[2] = settings.sky.top_m + kSpare;
+    // A layer that stands on the ground, or just above it, ends there.
+    const Ground& ground = scene.ground;
+    if (ground.present && settings.sky.base_m >= ground.altitude_m && low[2] < ground.altitude_m)
+        low[2] = ground.altitude_m;
     settings.box.has_bounds = true;
     settings.box.bounds_m = {low, high};
     return settings;

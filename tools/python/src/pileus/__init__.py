@@ -13,11 +13,12 @@ from ._core import orbit
 from ._errors import BadInput, CheckFailed, Error, Io, Limit, PictureWarning
 from ._scene import Scene, World, override_texts
 from ._session import LayeredPicture, Picture, Progress, Session, Stats
+from ._sky import Sky
 
 Light = Progress  # an older name
 __version__ = _core.version
 __all__ = ["BadInput", "CheckFailed", "Error", "Figures", "Io", "LayeredPicture", "Light", "Limit", "Picture",
-           "PictureWarning", "Progress", "Scene", "Session", "Stats", "World", "compare", "orbit", "render"]
+           "PictureWarning", "Progress", "Scene", "Session", "Sky", "Stats", "World", "compare", "orbit", "render"]
 
 
 def render(scene, colour=None, *, overrides=None, density=None, size=None, units=None, threads=0,

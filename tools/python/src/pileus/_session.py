@@ -106,6 +106,41 @@ def _columns(name, matrix):
     return matrix.T.ravel().tolist()
 
 
+def _depths(values):
+    """Depths of a host, whose pixels lie close in each row."""
+    values = np.asarray(values, np.float32)
+    return np.ascontiguousarray(values) if values.ndim == 2 and values.strides[1] != 4 else values
+
+
+def _format_of(colour, name):
+    """The format that an array's numbers say."""
+    if not isinstance(colour, np.ndarray):
+        raise BadInput(f"colour: {type(colour).__name__}, allowed: an array, None or False")
+    kinds = [i for i, dtype in enumerate(_DTYPES) if colour.dtype == dtype]
+    if not kinds or (name is not None and kinds[0] != _choice("format", name, _FORMATS)):
+        wanted = f"of format {name}" if kinds else "uint8, float16 or float32"
+        raise BadInput(f"colour: {colour.dtype}, allowed: {wanted}")
+    return kinds[0]
+
+
+def _buffers(size, colour, format, blend, depth):
+    """Arrays to draw into, those of the caller or new ones: colour, its format, depth."""
+    width, height = size
+    if colour is None:
+        chosen = _choice("format", format or "rgba32f", _FORMATS)
+        make = np.zeros if blend == "over" else np.empty
+        colour = make((height, width, 4), _DTYPES[chosen])
+    elif colour is False:
+        chosen, colour = 0, None
+    else:
+        chosen = _format_of(colour, format)
+    if depth is True:
+        depth = np.empty((height, width), np.float32)
+    elif depth is False:
+        depth = None
+    return colour, chosen, depth
+
+
 class Session:
     """One camera, one light and one method over a world; it begins as its scene says.
 
@@ -192,9 +227,7 @@ class Session:
         kind: "distance" (along each ray), "view_z" or "buffer" (of the camera's projection).
         """
         if values is not None:
-            values = np.asarray(values, np.float32)
-            if values.ndim == 2 and values.strides[1] != 4:
-                values = np.ascontiguousarray(values)
+            values = _depths(values)
         self._core.set_depth(values, _choice("kind", kind, _DEPTHS), bottom_up)
 
     def set_frame(self, number):
@@ -249,19 +282,8 @@ class Session:
         Returns colour; where depth or hash is asked for, a Picture; where layers, a LayeredPicture.
         """
         mode = _choice("blend", blend, _BLENDS)
+        colour, chosen, depth = _buffers(self.size, colour, format, blend, depth)
         width, height = self.size
-        if colour is None:
-            chosen = _choice("format", format or "rgba32f", _FORMATS)
-            make = np.zeros if blend == "over" else np.empty
-            colour = make((height, width, 4), _DTYPES[chosen])
-        elif colour is False:
-            chosen, colour = 0, None
-        else:
-            chosen = self._format_of(colour, format)
-        if depth is True:
-            depth = np.empty((height, width), np.float32)
-        elif depth is False:
-            depth = None
         planes = {str(name): np.empty((height, width), np.float32) for name in layers}
         bits = self._core.render(colour, chosen, mode, exposure, depth,
                                  _choice("depth_kind", depth_kind, _DEPTHS), hash, bottom_up,
@@ -272,14 +294,3 @@ class Session:
             return colour
         picture = Picture(colour, depth, None if bits is None else f"{bits:016x}")
         return LayeredPicture(*picture, planes) if planes else picture
-
-    @staticmethod
-    def _format_of(colour, name):
-        """The format that an array's numbers say."""
-        if not isinstance(colour, np.ndarray):
-            raise BadInput(f"colour: {type(colour).__name__}, allowed: an array, None or False")
-        kinds = [i for i, dtype in enumerate(_DTYPES) if colour.dtype == dtype]
-        if not kinds or (name is not None and kinds[0] != _choice("format", name, _FORMATS)):
-            wanted = f"of format {name}" if kinds else "uint8, float16 or float32"
-            raise BadInput(f"colour: {colour.dtype}, allowed: {wanted}")
-        return kinds[0]
