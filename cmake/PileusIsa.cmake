@@ -50,10 +50,10 @@ function(pileus_add_isa name width)
             PILEUS_ISA=${name} PILEUS_WIDTH=${width})
         # The bits are the same at any level. -O2 is as fast as -O3 but for a few sources (below), a sixth smaller, and
         # quicker to compile. Where x86 and WebAssembly have vectors no program chooses the scalar kernels by itself:
-        # they are there to compare with, and are small.
+        # they are there to compare with, and -O1 compiles soonest (-Os, a fifth smaller, leaves weak functions).
         set(level -O2)
         if(name STREQUAL "scalar" AND (PILEUS_X86 OR EMSCRIPTEN) AND NOT PILEUS_KERNELS STREQUAL "scalar")
-            set(level -Os)
+            set(level -O1)
         endif()
         if(PILEUS_QUICK_KERNELS AND NOT name STREQUAL own_isa)
             set(level -O1)

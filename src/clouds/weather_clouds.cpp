@@ -16,7 +16,7 @@ std::string clock_text(double hours) {
 }
 
 /// Before names of kinds, which are not those of the scene's own.
-const std::string kOwn = "weather.";
+constexpr const char* kOwn = "weather.";
 
 Status fill(const MetarSky& sky, Scene& scene) {
     CloudsSettings& clouds = scene.clouds;
@@ -34,13 +34,13 @@ Status fill(const MetarSky& sky, Scene& scene) {
     }
     for (const MetarScene& made : sky.kinds) {
         CloudKindSettings kind;
-        kind.name = kind.scene = kOwn + made.name;
+        kind.name = kind.scene = std::string(kOwn) + made.name;
         kind.text = made.text;
         clouds.kinds.push_back(std::move(kind));
     }
     for (const MetarScatter& row : sky.scatter) {
         CloudScatter scatter;
-        scatter.kinds = {kOwn + row.kind};
+        scatter.kinds = {std::string(kOwn) + row.kind};
         scatter.count = row.count;
         scatter.base_m = {row.base_m, row.base_m};
         scatter.near_m = row.near_m;

@@ -89,6 +89,10 @@ std::string cloud_lines(const CloudsSettings& clouds) {
     for (const CloudKindSettings& kind : clouds.kinds)
         lines += info_line("kind of clouds", fmt::format("{}, {}", printable_line(kind.name),
                                                          printable_line(kind.scene)));
+    for (const CloudLayerSettings& layer : clouds.layers)
+        lines += info_line("layer", printable_line(layer.scene));
+    if (clouds.weather.present())
+        lines += info_line("weather", printable_line(clouds.weather.metar));
     return lines + info_line("clouds", fmt::to_string(count));
 }
 
