@@ -70,6 +70,24 @@ Status make_clouds(pileus_session& sky, pileus_clouds*& clouds) {
 
 std::unique_ptr<Clouds>& clouds_of(pileus_clouds& clouds) { return clouds.clouds; }
 
+Status draw_clouds(const pileus_frame* frame, const pileus_depth_image* depth, bool over_host,
+                   Session& sky, Clouds& clouds) {
+    pileus_frame given;
+    if (!take(frame, given)) return no_struct("frame");
+    FrameTarget target;
+    PILEUS_TRY(take_target(given, sky.camera(), target));
+    if (!target.layers.empty())
+        return Status::bad_input("frame.layers: of skies of clouds, allowed: none");
+    if (depth != nullptr) PILEUS_TRY(set_depth_image(depth, sky));
+    std::uint64_t hash = 0;
+    target.hash = given.hash != nullptr ? &hash : nullptr;
+    clouds.set_over_host(over_host && target.has_colour &&
+                         target.colour.blend != PixelBlend::kReplace);
+    PILEUS_TRY(clouds.render(target));
+    if (given.hash != nullptr) *given.hash = hash;
+    return Status::ok();
+}
+
 }  // namespace pileus::api
 
 using namespace pileus;
@@ -132,17 +150,7 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
                                  pileus_error* error) {
     if (clouds == nullptr) return no_clouds(error);
     return call(*clouds->sky, error, [&]() -> Status {
-        pileus_frame given;
-        if (!take(frame, given)) return no_struct("frame");
-        FrameTarget target;
-        PILEUS_TRY(take_target(given, clouds->sky->session->camera(), target));
-        if (!target.layers.empty())
-            return Status::bad_input("frame.layers: of skies of clouds, allowed: none");
-        std::uint64_t hash = 0;
-        target.hash = given.hash != nullptr ? &hash : nullptr;
-        PILEUS_TRY(clouds->clouds->render(target));
-        if (given.hash != nullptr) *given.hash = hash;
-        return Status::ok();
+        return draw_clouds(frame, nullptr, false, *clouds->sky->session, *clouds->clouds);
     });
 }
 

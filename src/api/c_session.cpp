@@ -177,6 +177,20 @@ Status take_stride(const char* name, std::int64_t stride, std::int64_t least, st
                              std::to_string(most));
 }
 
+RenderOptions with_cancel(const RenderOptions& options, pileus_session& session) {
+    RenderOptions own = options;
+    own.interrupted = [asked = options.interrupted, cancelled = &session.cancelled] {
+        return *cancelled || (asked && asked());
+    };
+    return own;
+}
+
+Status set_depth_image(const pileus_depth_image* given, Session& session) {
+    pileus_depth_image own;
+    if (!take(given, own)) return no_struct("depth");
+    return set_depth(own, session);
+}
+
 void leave(pileus_session* session) {
     if (session->users.fetch_sub(1) == 1) delete session;
 }
@@ -197,11 +211,8 @@ pileus_code pileus_session_create(const pileus_world* world, const pileus_scene*
         if (session == nullptr) return Status::bad_input("session: null, allowed: where to put it");
         auto made = std::make_unique<pileus_session>();
         made->host = parts;
-        RenderOptions own = options;
-        own.interrupted = [asked = options.interrupted, cancelled = &made->cancelled] {
-            return *cancelled || (asked && asked());
-        };
-        PILEUS_TRY(made->session->open(scene->scene, own, true, world->world));
+        PILEUS_TRY(
+            made->session->open(scene->scene, with_cancel(options, *made), true, world->world));
         *session = made.release();
         return Status::ok();
     });

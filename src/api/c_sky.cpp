@@ -41,13 +41,6 @@ Status check_finite(const char* name, const double* v, std::size_t count, double
 
 constexpr double kMaxPlaceM = 1e9;
 
-/// Kinds, layers, places and haze of the scene, as its report has them.
-Status fill_sky(pileus_sky& sky, const Scene& scene) {
-    CloudCounts told;
-    return fill_scene_clouds(scene, sky.options, *sky.session->session, *clouds_of(*sky.clouds),
-                             told);
-}
-
 Status take_shadow(const pileus_shadow_map& given, ShadowMapTarget& target) {
     constexpr std::uint32_t kMaxTexels = 16384;
     for (const std::uint32_t n : {given.width, given.height})
@@ -104,26 +97,20 @@ pileus_code pileus_sky_create(const pileus_scene* scene, const pileus_host* host
     return call_with(host, error, [&](const auto& parts, const RenderOptions& options) -> Status {
         if (scene == nullptr) return no_handle("scene");
         if (sky == nullptr) return Status::bad_input("sky: null, allowed: where to put it");
-        const auto drop = [](pileus_sky* s) {
-            pileus_clouds_free(s->clouds);
-            pileus_session_free(s->session);
-            delete s;
-        };
-        std::unique_ptr<pileus_sky, decltype(drop)> made(new pileus_sky, drop);
+        std::unique_ptr<pileus_sky, decltype(&pileus_sky_free)> made(new pileus_sky,
+                                                                     pileus_sky_free);
         made->scene = scene->scene;
         made->options = options;
         Scene filled = scene->scene;
         PILEUS_TRY(apply_weather(filled));
         auto session = std::make_unique<pileus_session>();
         session->host = parts;
-        RenderOptions own = options;
-        own.interrupted = [asked = options.interrupted, cancelled = &session->cancelled] {
-            return *cancelled || (asked && asked());
-        };
-        PILEUS_TRY(open_sky(filled, own, *session->session));
+        PILEUS_TRY(open_sky(filled, with_cancel(options, *session), *session->session));
         made->session = session.release();
         PILEUS_TRY(make_clouds(*made->session, made->clouds));
-        PILEUS_TRY(fill_sky(*made, filled));
+        CloudCounts told;
+        PILEUS_TRY(fill_scene_clouds(filled, options, *made->session->session,
+                                     *clouds_of(*made->clouds), told));
         *sky = made.release();
         return Status::ok();
     });
@@ -199,33 +186,8 @@ pileus_code pileus_sky_move(pileus_sky* sky, const double offset_m[3], pileus_er
 
 pileus_code pileus_sky_render(pileus_sky* sky, const pileus_depth_image* depth,
                               const pileus_frame* frame, pileus_error* error) {
-    const pileus_code sound = with_sky(sky, error, [&](Session& session, Clouds&) -> Status {
-        pileus_frame given;
-        if (!take(frame, given)) return no_struct("frame");
-        FrameTarget target;
-        PILEUS_TRY(take_target(given, session.camera(), target));
-        return target.layers.empty()
-                   ? Status::ok()
-                   : Status::bad_input("frame.layers: of a whole sky, allowed: none");
-    });
-    if (sound != PILEUS_OK) return sound;
-    if (depth != nullptr) {
-        const pileus_code code = pileus_session_set_depth(sky->session, depth, error);
-        if (code != PILEUS_OK) return code;
-    }
     return with_sky(sky, error, [&](Session& session, Clouds& clouds) -> Status {
-        pileus_frame given;
-        if (!take(frame, given)) return no_struct("frame");
-        FrameTarget target;
-        PILEUS_TRY(take_target(given, session.camera(), target));
-        std::uint64_t hash = 0;
-        target.hash = given.hash != nullptr ? &hash : nullptr;
-        clouds.set_over_host(target.has_colour && target.colour.blend != PixelBlend::kReplace);
-        const Status drawn = clouds.render(target);
-        clouds.set_over_host(false);
-        PILEUS_TRY(Status(drawn));
-        if (given.hash != nullptr) *given.hash = hash;
-        return Status::ok();
+        return draw_clouds(frame, depth, true, session, clouds);
     });
 }
 

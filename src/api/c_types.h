@@ -240,9 +240,20 @@ private:
 /// One user less; the last one frees it.
 void leave(pileus_session* session);
 
+/// Options of a session's run, which its pileus_session_cancel ends, too.
+RenderOptions with_cancel(const RenderOptions& options, pileus_session& session);
+
+/// Takes up what a host has drawn.
+Status set_depth_image(const pileus_depth_image* given, Session& session);
+
 /// Clouds over a session, none at first; and what stands behind them.
 Status make_clouds(pileus_session& sky, pileus_clouds*& clouds);
 std::unique_ptr<Clouds>& clouds_of(pileus_clouds& clouds);
+
+/// The caller's frame of clouds, over what a host has drawn where `over_host` is set. `depth`,
+/// where not null: that, once the frame is sound.
+Status draw_clouds(const pileus_frame* frame, const pileus_depth_image* depth, bool over_host,
+                   Session& sky, Clouds& clouds);
 
 /// The caller's buffers, as far as they are given; the hash is left out.
 Status take_target(const pileus_frame& frame, const Camera& camera, FrameTarget& target);

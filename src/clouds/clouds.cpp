@@ -119,13 +119,6 @@ Status Clouds::add_layer(const Scene& scene, std::shared_ptr<const World> world)
     return Status::ok();
 }
 
-void Clouds::clear_layers() {
-    layers_.clear();
-    sources_.clear();
-    shaded_ = false;
-    ++shading_;
-}
-
 Status Clouds::place(const std::vector<CloudPlace>& places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const CloudPlace& p = places[i];
@@ -199,14 +192,6 @@ Status Clouds::move(const Double3& offset_m) {
     for (int a = 0; a < 2; ++a) on_ground_.low[a] += by[a];
     if (by.z != 0) shaded_ = false;
     return Status::ok();
-}
-
-void Clouds::clear() {
-    clouds_.clear();
-    drop_groups();
-    kinds_.clear();
-    clear_layers();
-    moved_ = Double3{};
 }
 
 void Clouds::set_anew(const CloudPlace& place, std::unique_ptr<Cloud>& cloud) const {

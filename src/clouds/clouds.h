@@ -26,16 +26,12 @@ public:
     /// A layer of the sky, drawn in each picture by its own method. Errors: a session's; kBadInput:
     /// more than kMaxCloudLayers.
     Status add_layer(const Scene& scene, std::shared_ptr<const World> world);
-    void clear_layers();
-    std::size_t layers() const { return layers_.size(); }
     /// In place of all that there were. Those that only moved keep their pictures.
     /// kBadInput: an unknown kind; a place or size out of range.
     Status place(const std::vector<CloudPlace>& places);
     /// Where all clouds and layers are beside their places: wind, or a host's own origin that
     /// moves. kBadInput: out of range, below the ground.
     Status move(const Double3& offset_m);
-    /// Kinds, layers and places are gone.
-    void clear();
     Status set_detail(const CloudDetail& detail);
     const CloudDetail& detail() const { return detail_; }
     /// Forgets light and pictures: the next picture is what a new sky's first would be.
@@ -55,9 +51,6 @@ public:
     const SunPlane& sun_plane() const { return plane_; }
     /// Share of the sky's light that the layers above a height let through in the mean.
     float sky_left(double z) const;
-    /// The light that clouds have.
-    const CloudLight& light() const { return light_; }
-    const Atmosphere& air() const { return air_; }
     /// Extinction at a place of the world, 1/m.
     Status extinction_at(const Double3& at, double& extinction);
     const CloudStats& stats() const { return stats_; }

@@ -304,7 +304,8 @@ Status Clouds::compose(const CloudView& view, const Camera& camera, int frame) {
     std::vector<ShownCloud> shown;
     PILEUS_TRY(march_all(view, camera, frame, layers, shown));
     const StageClock clock(context, "clouds composed");
-    return compose_clouds(view, shown, context.threads, planes_);
+    compose_clouds(view, shown, context.threads, planes_);
+    return Status::ok();
 }
 
 /// What of a host's own picture is not hidden by something of ours.

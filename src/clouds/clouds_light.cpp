@@ -10,36 +10,17 @@
 namespace pileus {
 namespace {
 
-/// Angle between two suns is above so many degrees.
-bool moved(const Sun& a, const Sun& b, double degrees) {
-    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
-    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
-    // |a - b| = 2 sin(angle / 2), whose halves are small.
-    return glm::length(from - to) > 2 * sincos_deg(0.5 * degrees).sine;
-}
-
 /// Where the moon lights the clouds it takes the sun's place.
 void take_place(const Atmosphere& air, Sun& sun) {
     sun.azimuth_deg = air.azimuth_deg;
     sun.elevation_deg = air.elevation_deg;
 }
 
-/// Of a date the sun's distance changes it, too.
-bool is_like(const Float3& a, const Float3& b) {
-    constexpr float kShare = 0.01f;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float off = a[c] > b[c] ? a[c] - b[c] : b[c] - a[c];
-        if (off > kShare * a[c]) return false;
-    }
-    return true;
-}
-
 /// But for where the sun stands.
 bool same_light(const CloudLight& a, const CloudLight& b) {
-    return a.sun.present == b.sun.present && is_like(a.sun.irradiance, b.sun.irradiance) &&
-           a.sky.present == b.sky.present && a.sky.radiance == b.sky.radiance &&
-           a.ground.present == b.ground.present && a.ground.albedo == b.ground.albedo &&
-           a.ground.altitude_m == b.ground.altitude_m;
+    return shine_alike(a.sun, b.sun) && a.sky.present == b.sky.present &&
+           a.sky.radiance == b.sky.radiance && a.ground.present == b.ground.present &&
+           a.ground.albedo == b.ground.albedo && a.ground.altitude_m == b.ground.altitude_m;
 }
 
 }  // namespace
@@ -67,7 +48,7 @@ Status Clouds::take_light(const Scenery& scenery) {
     now.sun = scene.sun;
     now.sky = scene.sky;
     now.ground = scene.ground;
-    if (lit_ && !moved(given_.sun, now.sun, detail_.on ? detail_.sun_deg : 0) &&
+    if (lit_ && are_within(given_.sun, now.sun, detail_.on ? detail_.sun_deg : 0) &&
         same_light(given_, now))
         return Status::ok();
     const CloudLight given = now;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <optional>
 
 #include "platform/threads.h"
@@ -141,18 +142,19 @@ public:
     /// Takes a fragment up in its place.
     void add(int i, const float (&v)[5]) {
         if (solid_ && !(v[4] < planes_.opaque_depth[block_.first + std::size_t(i)])) return;
+        const Fragment f{{v[0], v[1], v[2], v[3], v[4]}};
         Fragment* const list = list_of(i);
         int count = block_.number[std::size_t(i)];
         if (count == kCloudsInPixel) {
             // No room: the nearest one is final, which may be this.
-            if (v[4] < list[0].v[4]) return finish(i, Fragment{{v[0], v[1], v[2], v[3], v[4]}});
+            if (v[4] < list[0].v[4]) return finish(i, f);
             finish(i, list[0]);
             std::copy(list + 1, list + count, list);
             --count;
         }
         int at = count;
         for (; at > 0 && v[4] < list[at - 1].v[4]; --at) list[at] = list[at - 1];
-        list[at] = Fragment{{v[0], v[1], v[2], v[3], v[4]}};
+        list[at] = f;
         block_.number[std::size_t(i)] = std::uint8_t(++count);
     }
     /// All that is held becomes final, and sums of depths means.
@@ -234,19 +236,19 @@ private:
         const MarchedCloud& cloud = *shown_.newer.picture;
         const Planes& from = *cloud.planes;
         const PixelRect& rect = cloud.rect;
-        const std::size_t part = from.transmittance.size();
         const std::size_t at =
             std::size_t(y_ - rect.y0) * std::size_t(rect.width()) + std::size_t(x - rect.x0);
         v[3] = 1.0f - from.transmittance[at];
         if (!(v[3] > 0)) return false;
-        take_colour(from, part, at, v);
-        for (std::size_t c = 0; c < 3; ++c) v[c] *= shown_.newer.gain[c];
+        take_light(from, at, v);
         v[4] = cloud.depth(x - rect.x0, y_ - rect.y0);
         cloud.shade.dim_sky(v);
-        if (cloud.shade.texels == nullptr) return true;
-        const float sx = float(view_.sx(x + 0.5));
-        const float height2 = float(1 + sy_ * sy_);
-        cloud.shade.darken(shade_->left(sx, v[4] / __builtin_sqrtf(height2 + sx * sx)), v);
+        if (cloud.shade.texels != nullptr) {
+            const float sx = float(view_.sx(x + 0.5));
+            const float height2 = float(1 + sy_ * sy_);
+            cloud.shade.darken(shade_->left(sx, v[4] / __builtin_sqrtf(height2 + sx * sx)), v);
+        }
+        for (std::size_t c = 0; c < 3; ++c) v[c] *= shown_.newer.gain[c];
         return true;
     }
     bool sample_layer(int x, float (&v)[5]) const {
@@ -255,7 +257,7 @@ private:
         const std::size_t at = std::size_t(y_) * std::size_t(view_.width) + std::size_t(x);
         v[3] = 1.0f - from.transmittance[at];
         if (!(v[3] > 0)) return false;
-        take_colour(from, from.transmittance.size(), at, v);
+        take_light(from, at, v);
         v[4] = from.half_depth[at];
         // Where nothing shades it, or there is no sun.
         for (std::size_t c = 0; c < 3 && layer.sources == nullptr; ++c) v[c] *= layer.sky_left;
@@ -272,18 +274,10 @@ private:
         if (!from.opaque_depth.empty()) v[4] = std::min(v[4], 0.999f * from.opaque_depth[at]);
         if (layer.sources == nullptr) return true;
         const float left =
-            sunlight_left(*layer.plane, *layer.sources, eye + ray * double(v[4]), SIZE_MAX, true);
+            sunlight_left(*layer.plane, *layer.sources, eye + ray * double(v[4]), true);
         for (std::size_t c = 0; c < 3; ++c)
             v[c] *= layer.sun_share[c] * left + (1.0f - layer.sun_share[c]) * layer.sky_left;
         return true;
-    }
-    /// Noise may go below 0.
-    static void take_colour(const Planes& from, std::size_t pixels, std::size_t at, float (&v)[5]) {
-        const float* const colour = from.cloud.empty() ? from.colour.data() : from.cloud.data();
-        for (std::size_t c = 0; c < 3; ++c) {
-            v[c] = colour[c * pixels + at];
-            if (!(v[c] > 0)) v[c] = 0;
-        }
     }
 
     const CloudView& view_;
@@ -297,8 +291,8 @@ private:
 
 }  // namespace
 
-Status compose_clouds(const CloudView& view, const std::vector<ShownCloud>& shown, int threads,
-                      Planes& planes) {
+void compose_clouds(const CloudView& view, const std::vector<ShownCloud>& shown, int threads,
+                    Planes& planes) {
     parallel_for(threads, (view.height + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const auto block = std::make_unique<Block>();
         BlockPlanes to(*block, planes);
@@ -316,7 +310,6 @@ Status compose_clouds(const CloudView& view, const std::vector<ShownCloud>& show
             }
         }
     });
-    return Status::ok();
 }
 
 }  // namespace pileus

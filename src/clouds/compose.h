@@ -3,8 +3,6 @@
 // in: what stands for each, by the least distance -> out: planes of their light alone.
 // docs/clouds.md
 #pragma once
-#include <memory>
-
 #include "src/clouds/impostor.h"
 #include "src/clouds/layer.h"
 
@@ -41,9 +39,8 @@ struct ShownCloud {
 /// Lays them over one another where opaque depths of `planes`, if there are any, do not hide them:
 /// colours, transmittance, and in `half_depth` depths weighted by what each hides. `shown`: by
 /// near_m. In a pixel up to kCloudsInPixel are sorted at a time; a nearest one of more is final.
-/// kLimit: out of memory.
 constexpr int kCloudsInPixel = 8;
-Status compose_clouds(const CloudView& view, const std::vector<ShownCloud>& shown, int threads,
-                      Planes& planes);
+void compose_clouds(const CloudView& view, const std::vector<ShownCloud>& shown, int threads,
+                    Planes& planes);
 
 }  // namespace pileus

@@ -64,13 +64,7 @@ bool MarchedCloud::sample(int x, int y, const Double3& eye, const Double3& ray,
     const std::size_t i = std::size_t(y) * std::size_t(rect.width()) + std::size_t(x);
     const float alpha = 1.0f - planes->transmittance[i];
     if (!(alpha > 0)) return false;
-    const std::size_t pixels = planes->transmittance.size();
-    const Buffer<float>& colour = planes->cloud.empty() ? planes->colour : planes->cloud;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float v = colour[c * pixels + i];
-        // Noise may go below 0.
-        out[c] = v > 0 ? v : 0.0f;
-    }
+    take_light(*planes, i, out);
     out[3] = alpha;
     out[4] = depth(x, y);
     shade.dim_sky(out);

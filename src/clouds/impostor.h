@@ -58,6 +58,16 @@ struct CloudShade {
     }
 };
 
+/// R G B of the media of a pixel. Noise may go below 0.
+inline void take_light(const Planes& from, std::size_t pixel, float (&rgba)[5]) {
+    const std::size_t pixels = from.transmittance.size();
+    const float* const light = from.cloud.empty() ? from.colour.data() : from.cloud.data();
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float v = light[c * pixels + pixel];
+        rgba[c] = v > 0 ? v : 0.0f;
+    }
+}
+
 /// A picture of this frame, as a group's session keeps it.
 struct MarchedCloud {
     const Planes* planes = nullptr;

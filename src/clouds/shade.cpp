@@ -61,11 +61,11 @@ float shadow_at(const float* texels, int side, float x, float y) {
 }
 
 float left_by(const ShadowSource& source, const SunPlane& plane, const Double3& at) {
+    if (source.shadow == nullptr) return source.beyond;
     const SunPlane& seen = source.plane != nullptr ? *source.plane : plane;
     const Double3 to = at - source.middle;
     const float x = float(glm::dot(to, seen.right) / source.radius);
     const float y = float(glm::dot(to, seen.up) / source.radius);
-    if (source.shadow == nullptr) return source.beyond;
     const bool beyond = !(x > -1 && x < 1 && y > -1 && y < 1);
     if (source.plane != nullptr && beyond) return source.beyond;
     return shadow_at(source.shadow, source.side, x, y);
@@ -83,12 +83,12 @@ float total_left(float left, double mean_cosine) {
 }
 
 float sunlight_left(const SunPlane& plane, const std::vector<ShadowSource>& all, const Double3& at,
-                    std::size_t own, bool spread) {
+                    bool spread) {
     float left = 1;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-        if (j == own || !is_sunward(all[j], plane, at)) continue;
-        const float by = left_by(all[j], plane, at);
-        left *= spread && all[j].plane == nullptr ? total_left(by, kDropletCosine) : by;
+    for (const ShadowSource& source : all) {
+        if (!is_sunward(source, plane, at)) continue;
+        const float by = left_by(source, plane, at);
+        left *= spread && source.plane == nullptr ? total_left(by, kDropletCosine) : by;
     }
     return left;
 }

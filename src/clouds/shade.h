@@ -36,7 +36,7 @@ bool is_sunward(const ShadowSource& source, const SunPlane& plane, const Double3
 /// Number `own`, if there is one, does not count. `spread`: what clouds scatter forward counts,
 /// too, as on something that is lit from all around.
 float sunlight_left(const SunPlane& plane, const std::vector<ShadowSource>& all, const Double3& at,
-                    std::size_t own = SIZE_MAX, bool spread = false);
+                    bool spread = false);
 
 /// Share of sunlight between texels, at (x, y) from -1 to 1, right and up; 1 beyond.
 float shadow_at(const float* texels, int side, float x, float y);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
@@ -200,17 +199,9 @@ Status air_along(Session& sky, const Double3& direction, double metres, AirWay& 
     on.kept = kept;
     const Medium& medium = around->world->medium;
     const CameraParams seen = make_camera(camera, 0, medium.low_m);
-    // The air's own light, without what stands in the sky.
-    Scene without_disc = *around->scene;
-    without_disc.atmosphere.sun_disc = false;
-    Atmosphere& air = around->environment.air;
-    const bool has_moon = std::exchange(air.has_moon, false);
-    Stars stars = std::exchange(air.stars, Stars{});
-    const Status seen_air = run_air(sky.context(), without_disc, medium, around->lighting, seen,
-                                    around->environment, planes, on);
-    air.has_moon = has_moon;
-    air.stars = std::move(stars);
-    PILEUS_TRY(Status(seen_air));
+    on.bodies = false;
+    PILEUS_TRY(run_air(sky.context(), *around->scene, medium, around->lighting, seen,
+                       around->environment, planes, on));
     for (std::size_t c = 0; c < 3; ++c) out.left[c] = kept[c], out.light[c] = behind[c];
     return Status::ok();
 }

@@ -122,8 +122,8 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
     if (air.two_skies) PILEUS_TRY(add_other_sky(context, air, k, b));
     const SkySeen seen{camera, planes.opaque_depth.span(),
                        on.through ? planes.transmittance.span() : Span<const float>{}, on.behind};
-    show_night(context.threads, air, seen);
-    show_discs(scene, lighting, camera, planes, on, air);
+    show_night(context.threads, air, seen, on.bodies);
+    if (on.bodies) show_discs(scene, lighting, camera, planes, on, air);
     return Status::ok();
 }
 

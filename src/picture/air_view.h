@@ -23,6 +23,7 @@ struct AirPlanes {
     float* dimmed = nullptr;  ///< [3][pixel]; null: not wanted
     bool through = false;
     float* kept = nullptr;  ///< [3][pixel], transmittance to what stands behind; null: not wanted
+    bool bodies = true;     ///< sun, moon and single stars are seen
 };
 Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                const Lighting& lighting, const CameraParams& camera, Environment& environment,

@@ -2,6 +2,8 @@
 // See frame_state.h.
 #include "src/scene/frame_state.h"
 
+#include <glm/geometric.hpp>
+
 #include "src/base/angles.h"
 
 namespace pileus {
@@ -15,6 +17,22 @@ bool same_view(const Camera& a, const Camera& b) {
 bool same_sun(const Sun& a, const Sun& b) {
     return a.present == b.present && a.azimuth_deg == b.azimuth_deg &&
            a.elevation_deg == b.elevation_deg && a.irradiance == b.irradiance;
+}
+
+bool are_within(const Sun& a, const Sun& b, double degrees) {
+    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
+    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
+    // |a - b| = 2 sin(angle / 2), whose halves are small.
+    return glm::length(from - to) <= 2 * sincos_deg(0.5 * degrees).sine;
+}
+
+bool shine_alike(const Sun& a, const Sun& b) {
+    constexpr float kShare = 0.01f;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float off = a.irradiance[c] - b.irradiance[c];
+        if ((off < 0 ? -off : off) > kShare * a.irradiance[c]) return false;
+    }
+    return a.present == b.present;
 }
 
 bool same_ground(const Ground& a, const Ground& b) {

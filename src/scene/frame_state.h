@@ -114,6 +114,11 @@ struct FrameState {
 };
 
 bool same_sun(const Sun& a, const Sun& b);
+/// Whether two suns stand no more than so many degrees apart.
+bool are_within(const Sun& a, const Sun& b, double degrees);
+/// Whether both are there or not, and as bright within one part in a hundred: of a date the sun's
+/// distance changes with it.
+bool shine_alike(const Sun& a, const Sun& b);
 bool same_ground(const Ground& a, const Ground& b);
 /// What a host may change of a camera.
 bool same_view(const Camera& a, const Camera& b);

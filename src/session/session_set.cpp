@@ -2,8 +2,6 @@
 // What a host changes in a live session: camera, lights, depths, the place of the media.
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
-#include <glm/geometric.hpp>
-
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/methods/support.h"
@@ -37,24 +35,8 @@ Status check_frustum(const Camera& camera, bool billboards) {
     return Status::ok();
 }
 
-/// Whether light of one sun may be shown beside that of the other for some pictures.
-bool is_close(const Sun& a, const Sun& b) {
-    constexpr double kCloseDeg = 2;
-    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
-    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
-    // |a - b| = 2 sin(angle / 2), whose halves are small.
-    return a.present == b.present && glm::length(from - to) < 2 * sincos_deg(0.5 * kCloseDeg).sine;
-}
-
-/// The same of a sun as bright, but for its distance on a date.
-bool is_near(const Sun& a, const Sun& b) {
-    constexpr float kShare = 0.01f;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float off = a.irradiance[c] - b.irradiance[c];
-        if ((off < 0 ? -off : off) > kShare * a.irradiance[c]) return false;
-    }
-    return is_close(a, b);
-}
+/// Light of suns that stand so near may be shown one beside the other for some pictures.
+constexpr double kCloseDeg = 2;
 
 // Each returns null only where check_scene would find nothing, if the scene itself is sound, and
 // takes no memory. Of what is seldom set it may name a key that check_scene allows: that decides.
@@ -141,7 +123,8 @@ Status Session::set_sun(const Sun& given) {
     if (seal_.on && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = out_of_range(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
-    const bool anew = changed_.anew || !is_near(host_.sun, sun);
+    const bool anew =
+        changed_.anew || !shine_alike(host_.sun, sun) || !are_within(host_.sun, sun, kCloseDeg);
     host_.sun = sun;
     changed_.stale = true;
     PILEUS_TRY(relight_air());
@@ -193,7 +176,8 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 }
 
 Status Session::follow_sun(const Sun& sun) {
-    const bool anew = changed_.anew || !is_close(host_.sun, sun);
+    const bool anew =
+        changed_.anew || host_.sun.present != sun.present || !are_within(host_.sun, sun, kCloseDeg);
     PILEUS_TRY(set_sun(sun));
     changed_.air_moved = true;
     changed_.anew = anew;

@@ -39,6 +39,23 @@ struct Picture {
     std::vector<float> rgba, depth;
     std::uint64_t hash = 0;
 
+    Picture() = default;
+    Picture(std::uint32_t columns, std::uint32_t rows, float fill = 0)
+        : width(columns),
+          height(rows),
+          rgba(4 * std::size_t(columns) * rows, fill),
+          depth(std::size_t(columns) * rows) {}
+
+    /// Colours and depths are written here.
+    pileus_frame frame(pileus_blend blend) {
+        auto made = cleared<pileus_frame>();
+        made.colour = rgba.data();
+        made.format = PILEUS_FORMAT_RGBA32F;
+        made.blend = blend;
+        made.depth = depth.data();
+        made.hash = &hash;
+        return made;
+    }
     double sum(std::size_t channel) const {
         double all = 0;
         for (std::size_t i = channel; i < rgba.size(); i += 4) all += double(rgba[i]);
@@ -79,16 +96,10 @@ struct CloudySky {
         check(pileus_clouds_set_detail(clouds.get(), &d, &out.error));
     }
     Picture draw(pileus_blend blend = PILEUS_BLEND_REPLACE) {
-        Picture p;
-        check(pileus_session_size(sky.session.get(), &p.width, &p.height, &out.error));
-        p.rgba.resize(4 * std::size_t(p.width) * p.height);
-        p.depth.resize(std::size_t(p.width) * p.height);
-        auto frame = cleared<pileus_frame>();
-        frame.colour = p.rgba.data();
-        frame.format = PILEUS_FORMAT_RGBA32F;
-        frame.blend = blend;
-        frame.depth = p.depth.data();
-        frame.hash = &p.hash;
+        std::uint32_t width = 0, height = 0;
+        check(pileus_session_size(sky.session.get(), &width, &height, &out.error));
+        Picture p(width, height);
+        const pileus_frame frame = p.frame(blend);
         check(pileus_clouds_render(clouds.get(), &frame, &out.error));
         return p;
     }
@@ -121,15 +132,11 @@ inline double relative_error(const Picture& a, const Picture& b) {
 
 /// As a session draws the media alone.
 inline Picture session_picture(Hosted& host) {
-    Picture p;
-    host.check(pileus_session_size(host.session.get(), &p.width, &p.height, &host.out.error));
-    p.rgba.resize(4 * std::size_t(p.width) * p.height);
-    p.depth.resize(std::size_t(p.width) * p.height);
-    auto frame = cleared<pileus_frame>();
-    frame.colour = p.rgba.data();
-    frame.format = PILEUS_FORMAT_RGBA32F;
-    frame.blend = PILEUS_BLEND_MEDIA;
-    frame.depth = p.depth.data();
+    std::uint32_t width = 0, height = 0;
+    host.check(pileus_session_size(host.session.get(), &width, &height, &host.out.error));
+    Picture p(width, height);
+    pileus_frame frame = p.frame(PILEUS_BLEND_MEDIA);
+    frame.hash = nullptr;
     host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
     return p;
 }

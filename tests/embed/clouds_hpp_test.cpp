@@ -2,22 +2,13 @@
 // pileus.hpp: the pictures of the C interface, an owner that moves, faults.
 // in: small skies -> out: checks.
 // docs/clouds.md
-#include <pileus/pileus.hpp>
-
 #include "tests/embed/clouds_harness.h"
+#include "tests/embed/hpp_harness.h"
 
 using namespace clouds_test;
-namespace hpp = pileus::embed;
+using namespace hpp_test;
 
 namespace {
-
-template <class T>
-T take(hpp::Result<T> result) {
-    REQUIRE_MESSAGE(bool(result), result.message());
-    return *std::move(result);
-}
-
-void must(const hpp::Status& status) { REQUIRE_MESSAGE(bool(status), status.message()); }
 
 hpp::Session session_of(const std::string& text, const Overrides& sets) {
     const hpp::Scene scene = take(hpp::Scene::parse(text, {}, sets));

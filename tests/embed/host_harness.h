@@ -58,6 +58,17 @@ inline SceneHandle scene_of(const std::string& text, const Overrides& overrides)
     return SceneHandle(scene);
 }
 
+inline pileus_camera camera_at(const double (&position)[3], const double (&target)[3],
+                               double fov_deg, std::uint32_t width, std::uint32_t height) {
+    auto camera = cleared<pileus_camera>();
+    camera.width = width;
+    camera.height = height;
+    std::memcpy(camera.position_m, position, sizeof position);
+    std::memcpy(camera.target_m, target, sizeof target);
+    camera.fov_deg = fov_deg;
+    return camera;
+}
+
 /// A scene, its world and a session of it.
 struct Hosted {
     SceneHandle scene;
@@ -84,12 +95,7 @@ struct Hosted {
     }
     void aim(const double (&position)[3], const double (&target)[3], double fov_deg,
              std::uint32_t width, std::uint32_t height) {
-        auto camera = cleared<pileus_camera>();
-        camera.width = width;
-        camera.height = height;
-        std::memcpy(camera.position_m, position, sizeof position);
-        std::memcpy(camera.target_m, target, sizeof target);
-        camera.fov_deg = fov_deg;
+        const pileus_camera camera = camera_at(position, target, fov_deg, width, height);
         check(pileus_session_set_camera(session.get(), &camera, &out.error));
     }
     void sun(double azimuth_deg, double elevation_deg, float irradiance = 1) {

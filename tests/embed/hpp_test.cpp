@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-#include <pileus/pileus.hpp>
 
 #include "tests/embed/host_harness.h"
+#include "tests/embed/hpp_harness.h"
 
 using render_test::kSmallCumulus;
-namespace hpp = pileus::embed;
+using namespace hpp_test;
 
 namespace {
 
@@ -22,13 +22,7 @@ Texts with(const std::string& method) {
             "collectors.generations=3", "collectors.photons=600", "raymarch.steps=40"};
 }
 
-template <class T>
-T take(hpp::Result<T> result) {
-    REQUIRE_MESSAGE(bool(result), result.message());
-    return *std::move(result);
-}
-
-void check(const hpp::Status& status) { REQUIRE_MESSAGE(bool(status), status.message()); }
+const auto& check = must;
 
 hpp::Session session_of(const std::string& method, const hpp::Host& host = {}) {
     const hpp::Scene scene = take(hpp::Scene::parse(kSmallCumulus, {}, with(method)));
@@ -139,16 +133,8 @@ TEST_CASE("pileus.hpp: a host of lambdas, kept as long as what it made") {
     std::atomic<long> held{0}, bodies{0}, stages{0};
     auto token = std::make_shared<int>(0);
     {
-        hpp::Host host;
+        hpp::Host host = counting_host(held, token);
         host.threads = 2;
-        host.allocate = [&held, token](std::size_t bytes, std::size_t alignment) {
-            ++held;
-            return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-        };
-        host.release = [&held](void* memory) {
-            if (memory != nullptr) --held;
-            std::free(memory);
-        };
         host.run = [&bodies](std::uint32_t count, hpp::Body body) {
             bodies += count;
             for (std::uint32_t i = count; i > 0; --i) body(i - 1);

@@ -4,24 +4,15 @@
 // in: small skies -> out: checks.
 // docs/whole-sky.md
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <pileus/pileus.hpp>
 
 #include "tests/embed/clouds_harness.h"
+#include "tests/embed/hpp_harness.h"
 
 using namespace clouds_test;
-namespace hpp = pileus::embed;
+using namespace hpp_test;
 
 namespace {
-
-template <class T>
-T take(hpp::Result<T> result) {
-    REQUIRE_MESSAGE(bool(result), result.message());
-    return *std::move(result);
-}
-
-void must(const hpp::Status& status) { REQUIRE_MESSAGE(bool(status), status.message()); }
 
 /// A refusal of one line that tells `what`.
 bool refuses(const hpp::Status& status, const std::string& what) {
@@ -230,18 +221,10 @@ TEST_CASE("pileus.hpp: session and clouds are a sky's own, wherever it moves") {
 
 TEST_CASE("pileus.hpp: a sky keeps the hosts of what it was made of") {
     // Arrays go back to the host that lent them, after the last use of it.
-    long held = 0;
+    std::atomic<long> held{0};
     const auto token = std::make_shared<int>(0);
-    hpp::Host host;
+    hpp::Host host = counting_host(held, token);
     host.threads = 1;
-    host.allocate = [&held, token](std::size_t bytes, std::size_t alignment) {
-        ++held;
-        return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    };
-    host.release = [&held](void* memory) {
-        if (memory != nullptr) --held;
-        std::free(memory);
-    };
     {
         hpp::Sky sky = sky_of();
         const hpp::Scene scene = cumulus();

@@ -33,12 +33,7 @@ struct Whole {
     pileus_session* session() { return pileus_sky_session(sky.get()); }
     pileus_clouds* clouds() { return pileus_sky_clouds(sky.get()); }
     void aim(const double (&position)[3], const double (&target)[3], double fov_deg = 40) {
-        auto camera = cleared<pileus_camera>();
-        camera.width = width;
-        camera.height = height;
-        std::memcpy(camera.position_m, position, sizeof position);
-        std::memcpy(camera.target_m, target, sizeof target);
-        camera.fov_deg = fov_deg;
+        const pileus_camera camera = camera_at(position, target, fov_deg, width, height);
         check(pileus_session_set_camera(session(), &camera, &out.error));
     }
     void sun(double azimuth_deg, double elevation_deg) {
@@ -64,18 +59,10 @@ struct Whole {
     }
     Picture draw(pileus_blend blend = PILEUS_BLEND_REPLACE, const float* depth = nullptr,
                  float fill = 0) {
-        Picture p;
-        p.width = width, p.height = height;
-        p.rgba.assign(4 * std::size_t(width) * height, fill);
-        p.depth.resize(std::size_t(width) * height);
+        Picture p(width, height, fill);
         auto image = cleared<pileus_depth_image>();
         image.values = depth;
-        auto frame = cleared<pileus_frame>();
-        frame.colour = p.rgba.data();
-        frame.format = PILEUS_FORMAT_RGBA32F;
-        frame.blend = blend;
-        frame.depth = p.depth.data();
-        frame.hash = &p.hash;
+        const pileus_frame frame = p.frame(blend);
         check(
             pileus_sky_render(sky.get(), depth != nullptr ? &image : nullptr, &frame, &out.error));
         return p;

@@ -2,11 +2,7 @@
 // Fuzz target: functions of pileus.h one after the other, with arguments of any kind.
 // in: arbitrary bytes, read as calls -> out: each call a code and, where that is a fault, a line.
 // docs/embedding.md
-#include <cstring>
-
-#include "include/pileus/pileus.h"
-#include "tests/fuzz/arguments.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/api_calls.h"
 
 namespace {
 
@@ -24,9 +20,9 @@ constexpr std::uint32_t kPixels = 64;  ///< that buffers have room for
 constexpr int kSlots = 2;
 constexpr int kMaxCalls = 48;
 
-class Calls : fuzz::Arguments {
+class Calls : fuzz::ApiCalls {
 public:
-    Calls(const std::uint8_t* data, std::size_t size) : Arguments(data, size) {
+    Calls(const std::uint8_t* data, std::size_t size) : ApiCalls(data, size) {
         host_ = pileus_host_default();
         host_.threads = 1;
         host_.isa = "scalar";
@@ -55,18 +51,6 @@ public:
 
 private:
     int slot() { return byte() % kSlots; }
-    pileus_error* fault() {
-        error_ = pileus_error_default();
-        return &error_;
-    }
-    /// What every call promises.
-    void check(pileus_code code) const {
-        fuzz::require(code >= PILEUS_OK && code <= PILEUS_ERROR_IO, "a code of the header");
-        fuzz::require(error_.code == code, "the error has the code");
-        fuzz::require((code == PILEUS_OK) == (error_.message[0] == 0), "a fault has a line");
-        fuzz::require(std::memchr(error_.message, 0, sizeof error_.message) != nullptr,
-                      "a line ends");
-    }
 
     void make_scene();
     void make_world();
@@ -80,7 +64,6 @@ private:
     void sky();
 
     pileus_host host_;
-    pileus_error error_;
     pileus_scene* scene_[kSlots] = {};
     pileus_world* world_[kSlots] = {};
     pileus_session* session_[kSlots] = {};
@@ -356,18 +339,15 @@ void Calls::sky() {
 }
 
 void Calls::next() {
-    using Call = void (Calls::*)();
-    constexpr Call kCalls[] = {&Calls::make_scene, &Calls::make_world, &Calls::make_session,
-                               &Calls::set_view,   &Calls::set_view,   &Calls::set_lights,
-                               &Calls::set_lights, &Calls::set_rest,   &Calls::ask,
-                               &Calls::work,       &Calls::sky,        &Calls::draw};
-    (this->*kCalls[byte() % std::size(kCalls)])();
+    constexpr void (Calls::*kCalls[])() = {
+        &Calls::make_scene, &Calls::make_world, &Calls::make_session, &Calls::set_view,
+        &Calls::set_view,   &Calls::set_lights, &Calls::set_lights,   &Calls::set_rest,
+        &Calls::ask,        &Calls::work,       &Calls::sky,          &Calls::draw};
+    call_one(*this, kCalls);
 }
 
 }  // namespace
 
 int fuzz::calls(const std::uint8_t* data, std::size_t size) {
-    Calls calls(data, size);
-    for (int i = 0; i < kMaxCalls && !calls.done(); ++i) calls.next();
-    return 0;
+    return run_calls<Calls>(data, size, kMaxCalls);
 }

@@ -2,11 +2,7 @@
 // Fuzz target: functions of pileus.h for whole skies one after the other, with arguments of any
 // kind. in: arbitrary bytes, read as calls -> out: each call a code and, where that is a fault, a
 // line. docs/whole-sky.md
-#include <cstring>
-
-#include "include/pileus/pileus.h"
-#include "tests/fuzz/arguments.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/api_calls.h"
 
 namespace {
 
@@ -21,9 +17,9 @@ constexpr const char* kMedium =
 constexpr int kMaxCalls = 24;
 constexpr std::uint32_t kTexels = 16;
 
-class SkyCalls : fuzz::Arguments {
+class SkyCalls : fuzz::ApiCalls {
 public:
-    SkyCalls(const std::uint8_t* data, std::size_t size) : Arguments(data, size) {
+    SkyCalls(const std::uint8_t* data, std::size_t size) : ApiCalls(data, size) {
         host_ = pileus_host_default();
         host_.threads = 1;
         host_.isa = "scalar";
@@ -48,15 +44,7 @@ public:
 
 private:
     pileus_sky* sky() { return byte() % 32 == 0 ? nullptr : sky_; }
-    pileus_error* fault() {
-        error_ = pileus_error_default();
-        return &error_;
-    }
-    void check(pileus_code code) const {
-        fuzz::require(code >= PILEUS_OK && code <= PILEUS_ERROR_IO, "a code of the header");
-        fuzz::require(error_.code == code, "the error has the code");
-        fuzz::require((code == PILEUS_OK) == (error_.message[0] == 0), "a fault has a line");
-    }
+
     void set();
     void place();
     void draw();
@@ -64,7 +52,6 @@ private:
     void shadow();
 
     pileus_host host_;
-    pileus_error error_;
     pileus_sky* sky_ = nullptr;
     pileus_scene* scene_ = nullptr;
     pileus_world* world_ = nullptr;
@@ -155,16 +142,13 @@ void SkyCalls::shadow() {
 }
 
 void SkyCalls::next() {
-    using Call = void (SkyCalls::*)();
-    constexpr Call kCalls[] = {&SkyCalls::set,  &SkyCalls::set,   &SkyCalls::place,
-                               &SkyCalls::draw, &SkyCalls::light, &SkyCalls::shadow};
-    (this->*kCalls[byte() % std::size(kCalls)])();
+    constexpr void (SkyCalls::*kCalls[])() = {&SkyCalls::set,  &SkyCalls::set,   &SkyCalls::place,
+                                              &SkyCalls::draw, &SkyCalls::light, &SkyCalls::shadow};
+    call_one(*this, kCalls);
 }
 
 }  // namespace
 
 int fuzz::sky_calls(const std::uint8_t* data, std::size_t size) {
-    SkyCalls calls(data, size);
-    for (int i = 0; i < kMaxCalls && !calls.done(); ++i) calls.next();
-    return 0;
+    return run_calls<SkyCalls>(data, size, kMaxCalls);
 }

@@ -125,9 +125,9 @@ void show_points(const Atmosphere& air, const SkySeen& on) {
 
 }  // namespace
 
-void show_night(int threads, const Atmosphere& air, const SkySeen& on) {
+void show_night(int threads, const Atmosphere& air, const SkySeen& on, bool points) {
     if (!(air.glow == Double3{}) || air.stars.present()) show_wide(threads, air, on);
-    if (air.stars.present()) show_points(air, on);
+    if (points && air.stars.present()) show_points(air, on);
 }
 
 }  // namespace pileus

@@ -23,7 +23,7 @@ struct SkySeen {
     }
 };
 
-/// Nothing where the air has no such light.
-void show_night(int threads, const Atmosphere& air, const SkySeen& on);
+/// Nothing where the air has no such light. `points`: single stars, too.
+void show_night(int threads, const Atmosphere& air, const SkySeen& on, bool points = true);
 
 }  // namespace pileus

@@ -194,8 +194,8 @@ void add_metar_air(MetarDraft& draft) {
     // What falls all around dims no more than is reported.
     if (seen.given && fall.kind != nullptr && !fall.showers) {
         const double all_per_m = kMetarKoschmieder / seen.m;
-        const double most_per_m = all_per_m - haze_of(kMetarClearTurbidity);
-        fall_per_m = std::min(fall_per_m, std::max(most_per_m, 0.1 * all_per_m));
+        const double max_per_m = all_per_m - haze_of(kMetarClearTurbidity);
+        fall_per_m = std::min(fall_per_m, std::max(max_per_m, 0.1 * all_per_m));
     }
     if (visibility_m > 0) {
         const double all_per_m = kMetarKoschmieder / visibility_m;

@@ -14,7 +14,7 @@ constexpr double kMile_m = 1609.344;     // statute
 constexpr double kHundredFeet_m = 30.48;
 constexpr double kInch_hpa = 33.8638866667;  // of mercury
 
-constexpr double kMostSpeed_m_per_s = 150;  // above all winds on record, 113 m/s
+constexpr double kMaxSpeed_m_per_s = 150;  // above all winds on record, 113 m/s
 
 /// 0 to 360 in steps of one degree; the code's tens are not asked for, as stations give both.
 bool direction_fits(int degrees) { return degrees <= 360; }
@@ -127,7 +127,7 @@ MetarForm read_metar_wind(std::string_view word, MetarWind& out, Status& fault) 
     wind.from_deg = degrees;
     wind.speed_m_per_s = speed * unit;
     wind.gust_m_per_s = gust * unit;
-    if (wind.speed_m_per_s > kMostSpeed_m_per_s || wind.gust_m_per_s > kMostSpeed_m_per_s) {
+    if (wind.speed_m_per_s > kMaxSpeed_m_per_s || wind.gust_m_per_s > kMaxSpeed_m_per_s) {
         fault = metar_fault("wind speed out of range", word, "up to 150 m/s");
         return MetarForm::kFault;
     }

@@ -111,7 +111,7 @@ void MetarDraft::add_towers(const MetarTowers& towers, bool few, int count, doub
     row.base_m = settings.field_elevation_m + base_m;
     row.near_m = towers.near_m;
     row.far_m = settings.scale_radius_km * 1000;
-    if (row.far_m > towers.most_far_m) row.far_m = towers.most_far_m;
+    if (row.far_m > towers.max_far_m) row.far_m = towers.max_far_m;
     // A ring without room for them is made wide enough for one.
     if (row.far_m < row.near_m + towers.room_m) {
         row.far_m = row.near_m + towers.room_m;

@@ -75,7 +75,7 @@ struct MetarTowers {
     const char* name;
     const char* type;          ///< of [medium.cloud]
     int few, scattered, most;  ///< of a group, and of all groups
-    double near_m, most_far_m;
+    double near_m, max_far_m;
     double room_m;  ///< ring beyond near_m in which all of them have room; a narrower one takes one
 };
 constexpr MetarTowers kMetarCumulonimbus = {"cumulonimbus", "cumulonimbus", 1, 2, 3, 15000, 1e6,
